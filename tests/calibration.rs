@@ -1,12 +1,8 @@
 //! Prints that measure a printer: heights, exposures and shapes of their layers.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::io::{Cursor, Read};
 
-use common::quiet;
+use crate::common::quiet;
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Calibration, Options, Report};

@@ -1,11 +1,7 @@
 //! The deviation: its definition against a naive oracle, its bound against distances that are measured, and normal cones against
 //! closed forms.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, binary_stl, on_plate, quiet, solids};
+use crate::common::{assert_near, binary_stl, bins, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
@@ -17,14 +13,6 @@ use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::normal_cones::{cones, maxima};
 use cusp_slicer::profile::{LayerErrors, Metric, Reach, Source, steepest};
 use glam::{DVec2, Vec3};
-
-/// Bins of 1 mm.
-fn bins(count: usize) -> Bins {
-    Bins {
-        count,
-        size_mm: 1.0,
-    }
-}
 
 fn errors(steepest: &[f32]) -> LayerErrors {
     LayerErrors::Deviation(DeviationError::new(steepest, bins(steepest.len())))
@@ -375,9 +363,9 @@ fn the_planner_finds_the_fewest_layers_though_thicker_ones_may_be_nearer() {
         let greatest = least + random.usize(0..=5);
         let tolerance = random.f64() * 3.0;
         let steps = errors.to_steps(tolerance);
-        let rules = common::oracle::Rules::plain(count, (least, greatest));
+        let rules = crate::common::oracle::Rules::plain(count, (least, greatest));
         let between = |lower: usize, upper: usize| errors.steps_between(lower as u32, upper as u32);
-        let expected = common::oracle::best_plan(count, &rules, steps, between, |_, _| 1);
+        let expected = crate::common::oracle::best_plan(count, &rules, steps, between, |_, _| 1);
         let segment = Segment {
             lower: 0,
             units: count as u32,

@@ -1,7 +1,5 @@
 //! The defaults in the documents are the library's.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 use std::fmt::Write;
 
 use cusp_slicer::inspect::{Code, Limits, Severity};

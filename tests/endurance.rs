@@ -1,12 +1,9 @@
-//! Many jobs in one process take no more memory than a few. A single test in its binary: others would take memory beside it.
+//! Many jobs in one process take no more memory than a few.
 
-#![cfg(target_os = "linux")]
-
-mod common;
-
-use common::{binary_stl, quiet, solids};
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::profile::Metric;
+
+use crate::common::{binary_stl, in_own_process, quiet, solids};
 
 /// Jobs, each of the next model in turn.
 const JOBS: usize = 2000;
@@ -34,6 +31,11 @@ fn models() -> Vec<Vec<u8>> {
 
 #[test]
 fn the_memory_of_many_jobs_is_that_of_a_few() {
+    let name = "endurance::the_memory_of_many_jobs_is_that_of_a_few";
+    in_own_process(name, many_jobs);
+}
+
+fn many_jobs() {
     let models = models();
     let mut warm_bytes = 0.0;
     for job in 0..JOBS {
@@ -52,7 +54,7 @@ fn the_memory_of_many_jobs_is_that_of_a_few() {
         }
     }
     let bytes = resident_bytes();
-    println!(
+    eprintln!(
         "{:.1} MB after {WARM} jobs, {:.1} MB after {JOBS}",
         warm_bytes / 1e6,
         bytes / 1e6

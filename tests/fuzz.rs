@@ -1,8 +1,7 @@
 //! The fuzz targets on every compiler: their seeds, which include what fuzzing has found, and some changes to each.
 //!
-//! `BLESS=1 cargo test --test fuzz` makes those seeds anew that are made by code; others stay.
+//! `BLESS=1 cargo test --test main fuzz::` makes those seeds anew that are made by code; others stay.
 
-mod common;
 #[path = "../fuzz/src/lib.rs"]
 #[expect(
     dead_code,
@@ -22,7 +21,7 @@ use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::resin::Resin;
 use glam::Vec3;
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, quiet, solids};
 use targets::readers::{WEIGHED_CORNERS, packed_part, without_previews};
 use targets::{TARGETS, Target, settings};
 

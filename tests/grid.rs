@@ -1,10 +1,6 @@
 //! Pixels and bins: decimal lengths, which are not binary fractions, still give the counts that users expect.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{on_plate, solids};
+use crate::common::{on_plate, solids};
 use cusp_slicer::grid::{Bins, Grid, GridError};
 use glam::Vec3;
 

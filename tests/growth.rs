@@ -1,10 +1,6 @@
 //! Masks that make up for the growth of prints: every pixel against a naive erosion, and sides of a cube in closed form.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{on_plate, solids};
+use crate::common::{on_plate, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::growth::Growth;
 use cusp_slicer::ldi::{Ldi, cpu};

@@ -1,7 +1,5 @@
 //! The data layouts and constants of the shaders against those in Rust.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 use std::mem::offset_of;
 
 use cusp_slicer::ldi::layout::{

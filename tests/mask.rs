@@ -1,13 +1,9 @@
 //! Masks: areas and volumes of solids in closed form, and every pixel against a naive walk along its
 //! ray.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::io::{Cursor, Read};
 
-use common::{binary_stl, on_plate, quiet, sample, solids};
+use crate::common::{binary_stl, on_plate, quiet, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::ldi::{Hit, cpu};

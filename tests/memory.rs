@@ -1,29 +1,26 @@
 //! Memory, measured by a counting allocator.
-#![cfg(not(target_arch = "wasm32"))]
 
-mod common;
-
-use common::{binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::job::{Backend, Options, Slicer};
 use cusp_slicer::orientation::Task;
 use glam::Vec3;
-use peak_alloc::PeakAlloc;
 
-#[global_allocator]
-static ALLOCATOR: PeakAlloc = PeakAlloc;
+use crate::ALLOCATOR;
+use crate::common::{binary_stl, in_own_process, quiet, solids};
 
-/// The only test in its binary, so that nothing else allocates at the same time.
 #[test]
 fn searches_and_bounded_jobs_take_the_memory_that_they_say() {
-    a_search_takes_the_memory_that_the_description_of_a_model_says();
-    a_job_takes_no_more_memory_than_it_may();
+    let name = "memory::searches_and_bounded_jobs_take_the_memory_that_they_say";
+    in_own_process(name, || {
+        a_search_takes_the_memory_that_the_description_of_a_model_says();
+        a_job_takes_no_more_memory_than_it_may();
+    });
 }
 
 /// Within the least memory that it says it can do with, and within more, where it holds more layers at a time.
 fn a_job_takes_no_more_memory_than_it_may() {
     let stl = binary_stl(&solids::sphere(20.0, 7));
-    for (pixels, antialias) in [(4000, 1), (1500, 4)] {
+    for (pixels, antialias) in [(3000, 1), (1000, 4)] {
         let options = Options {
             pixels: Some([pixels; 2]),
             pitch_mm: Some(50.0 / f64::from(pixels)),

@@ -1,10 +1,6 @@
 //! The mesh: volumes in closed form, and defects planted and found.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, on_plate, solids};
+use crate::common::{assert_near, on_plate, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::ldi::{RayImage, Survey};
 use cusp_slicer::model::{FacetClass, Mesh, MeshError, Pose};
@@ -308,7 +304,7 @@ fn a_needle_that_rounding_made_is_left_out() {
 }
 
 fn union_volume(triangles: &[[Vec3; 3]]) -> f64 {
-    let (_, ldi) = common::sample(triangles, 240);
+    let (_, ldi) = crate::common::sample(triangles, 240);
     let survey = Survey::of(RayImage::Kept(&ldi), &mut silent).unwrap();
     survey.solid.volume_mm3
 }

@@ -1,10 +1,6 @@
 //! Prices: closed forms, what holds for all of them, and the document that defines them.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, quiet, solids};
 use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, Slicer};
 use cusp_slicer::price::{Finish, Price, PriceError, PriceItem, PriceKind, Prices, QuantityBreak};
 

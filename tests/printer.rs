@@ -1,10 +1,6 @@
 //! Printers and resins as data: plates, what printers refuse, exposures.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, binary_stl, quiet, solids};
+use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::{Format, FormatThicknesses};
 use cusp_slicer::job::{Backend, Options, Report, Slicer};

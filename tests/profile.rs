@@ -1,10 +1,6 @@
 //! Profiles of solids, sampled and exact, against closed forms and naive oracles.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, on_plate, oracle, sample, solids};
+use crate::common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::visibility::{Visibility, visibility};
 use cusp_slicer::ldi::{Ldi, RayImage, Survey, cpu};

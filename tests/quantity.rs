@@ -1,7 +1,5 @@
 //! Numbers that users give: each is refused by its own name, with its bound and its unit.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 use cusp_slicer::job::{Options, Planner};
 use cusp_slicer::quantity::QuantityError;
 use cusp_slicer::resin::Resin;

@@ -1,12 +1,8 @@
 //! Saliency, against its definition and invariances; weights in profiles, plans and files.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
 use std::ops::ControlFlow;
 
-use common::{assert_near, binary_stl, quiet, solids};
+use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::job::{Backend, Options, Report, Slicer, Snap};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::saliency::saliency;

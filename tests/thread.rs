@@ -1,10 +1,6 @@
 //! The metric of threads against closed forms and a loop over facets and bins.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, binary_stl, on_plate, oracle, quiet, solids};
+use crate::common::{assert_near, binary_stl, on_plate, oracle, quiet, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options, Planner, Slicer, Snap};
 use cusp_slicer::profile::{Metric, Source};

@@ -1,11 +1,7 @@
 //! Submitted plans are verified by planning again: an honest one passes, and any false value is found. Also previews and
 //! rotations.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
-
-use common::{assert_near, binary_stl, quiet, solids};
+use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::job::{Backend, Claim, Options, Planner, Report, Slicer, VerifyError};
 use cusp_slicer::profile::Metric;
 use serde_json::{Value, json};

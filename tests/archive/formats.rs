@@ -14,7 +14,7 @@ use serde_json::Value;
 use std::io::Cursor;
 use std::ops::ControlFlow;
 
-use crate::{Zip, file, text};
+use super::{Zip, file, text};
 
 fn options(format: Format) -> Options {
     Options {

@@ -8,7 +8,7 @@ use cusp_slicer::job::{Backend, Options, Planner, Slicer};
 use cusp_slicer::warning::Warning;
 use serde_json::Value;
 
-use crate::file;
+use super::file;
 
 fn slice(triangles: &solids::Triangles, options: &Options) -> (Slicer, Vec<u8>, Value) {
     let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();

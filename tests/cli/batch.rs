@@ -6,8 +6,8 @@ use std::process::Output;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, names, on_cpu, slab, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json, model, names, on_cpu, slab, sphere};
 
 const QUICK: [&str; 4] = ["--pitch", "0.1", "--backend", "cpu"];
 

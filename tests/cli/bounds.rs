@@ -5,8 +5,8 @@ use std::process::{Command, Output};
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use super::{cusp, json, model, names, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{cusp, json, model, names, on_cpu, sphere};
 
 /// The error that a command printed in JSON.
 fn error(output: &Output) -> Value {
@@ -186,7 +186,7 @@ fn what_takes_longer_than_allowed_is_ended() {
     let found = error(&on_cpu(&[&call, &long[..]].concat()));
     assert_eq!(found["code"], "time-bound");
     assert_eq!(found["detail"]["work"], "all");
-    assert_eq!(crate::names(&folder), ["cube.stl"]);
+    assert_eq!(super::names(&folder), ["cube.stl"]);
 }
 
 #[test]

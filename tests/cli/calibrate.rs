@@ -5,7 +5,7 @@ use std::fs;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp};
+use super::{assert_fails, cusp};
 
 #[test]
 fn calibration_prints_say_what_to_measure() {

@@ -2,8 +2,8 @@
 
 use tempfile::TempDir;
 
+use super::{assert_fails, json, model, on_cpu};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, json, model, on_cpu};
 
 /// A hollow ball, whose inside no hole drains.
 fn hollow(folder: &TempDir) -> String {

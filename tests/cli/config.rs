@@ -3,7 +3,7 @@
 use serde_json::{Value, json as value};
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, json, model, on_cpu, sphere};
+use super::{assert_fails, cusp, json, model, on_cpu, sphere};
 
 /// The options of a plan of a ball with these arguments.
 fn options(folder: &TempDir, arguments: &[&str]) -> Value {

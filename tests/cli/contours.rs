@@ -5,8 +5,8 @@ use std::fs;
 
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, names, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json, model, names, on_cpu, sphere};
 
 #[test]
 fn contours_have_the_layers_of_the_plan() {

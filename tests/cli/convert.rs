@@ -4,7 +4,7 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, json, model, names, on_cpu, sphere};
+use super::{assert_fails, cusp, json, model, names, on_cpu, sphere};
 
 /// A ball, 3 mm high, sliced for a printer that reads GOO.
 fn print_file(folder: &TempDir) -> String {

@@ -2,8 +2,8 @@
 
 use tempfile::TempDir;
 
+use super::{assert_fails, json, model, names, on_cpu, sphere};
 use crate::common::assert_near;
-use crate::{assert_fails, json, model, names, on_cpu, sphere};
 
 #[test]
 fn slice_writes_a_whole_zip_and_nothing_else() {
@@ -93,7 +93,7 @@ mod unix {
     use std::process::{Command, Stdio};
 
     use super::*;
-    use crate::cusp;
+    use crate::cli::cusp;
 
     const QUICK: [&str; 4] = ["--pitch", "0.1", "--backend", "cpu"];
 

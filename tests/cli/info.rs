@@ -2,8 +2,8 @@
 
 use tempfile::TempDir;
 
+use super::{cusp, json, model};
 use crate::common::{assert_near, binary_stl, solids};
-use crate::{cusp, json, model};
 
 #[test]
 fn info_describes_the_model() {

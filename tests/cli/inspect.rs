@@ -4,7 +4,7 @@ use std::fs;
 
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, json, model, names, on_cpu, sphere};
+use super::{assert_fails, cusp, json, model, names, on_cpu, sphere};
 
 /// The print file of a ball, 3 mm high.
 fn print_file(folder: &TempDir, format: &str) -> String {

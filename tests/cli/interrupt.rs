@@ -7,8 +7,8 @@ use std::time::{Duration, Instant};
 
 use tempfile::TempDir;
 
+use super::{model, names};
 use crate::common::{binary_stl, solids};
-use crate::{model, names};
 
 /// The command with default signal handling, as from a terminal. A program that runs the tests in the background may
 /// ignore interrupts, and children inherit that.

@@ -5,7 +5,7 @@ use std::process::Output;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, json, model, on_cpu, slab, sphere};
+use super::{assert_fails, cusp, json, model, on_cpu, slab, sphere};
 
 #[test]
 fn orient_finds_the_best_direction_and_applies_it() {

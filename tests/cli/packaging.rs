@@ -2,7 +2,7 @@
 
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, names};
+use super::{assert_fails, cusp, names};
 
 #[test]
 fn every_shell_has_completions_with_formats_and_printers() {

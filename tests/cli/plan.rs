@@ -2,8 +2,8 @@
 
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, on_cpu, sphere};
 use crate::common::assert_near;
-use crate::{assert_fails, cusp, json, model, on_cpu, sphere};
 
 #[test]
 fn plan_prints_one_json_object_with_every_key() {

@@ -5,8 +5,8 @@ use std::process::Output;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json as parsed, model, names, slab, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json as parsed, model, names, slab, sphere};
 
 /// A plate of 40 × 30 mm.
 const SMALL: [&str; 6] = ["--pixels", "400x300", "--pitch", "0.1", "--backend", "cpu"];

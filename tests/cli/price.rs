@@ -3,8 +3,8 @@
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json, model, on_cpu, sphere};
 
 /// A cent for a second, another for a microlitre, and a tenth off from three copies on.
 const PRICES: &str = r#"{

@@ -2,8 +2,8 @@
 
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, on_cpu};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json, model, on_cpu};
 
 #[test]
 fn a_print_file_is_measured_against_its_model() {

@@ -5,7 +5,7 @@ use std::process::{Command, Output, Stdio};
 
 use tempfile::TempDir;
 
-use crate::{assert_fails, cusp, json, names, sphere};
+use super::{assert_fails, cusp, json, names, sphere};
 
 const QUICK: [&str; 4] = ["--pitch", "0.1", "--backend", "cpu"];
 

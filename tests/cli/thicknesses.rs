@@ -3,8 +3,8 @@
 use serde_json::Value;
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, on_cpu, sphere};
 use crate::common::assert_near;
-use crate::{assert_fails, cusp, json, on_cpu, sphere};
 
 fn numbers(values: &Value) -> Vec<f64> {
     let values = values.as_array().unwrap().iter();

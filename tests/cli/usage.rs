@@ -4,8 +4,8 @@ use std::process::Command;
 
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, model, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, model, on_cpu, sphere};
 
 #[test]
 fn help_names_every_command_and_option() {

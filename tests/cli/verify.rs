@@ -4,8 +4,8 @@ use glam::Vec3;
 use serde_json::Value;
 use tempfile::TempDir;
 
+use super::{assert_fails, cusp, json, model, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
-use crate::{assert_fails, cusp, json, model, on_cpu, sphere};
 
 #[test]
 fn verify_accepts_what_plan_and_slice_made_and_nothing_else() {

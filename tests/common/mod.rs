@@ -1,9 +1,9 @@
-//! Shared by the suites: solids with closed forms, naive oracles and small helpers.
+//! Shared by the suites of all programs: solids with closed forms, naive oracles and small helpers.
 
 #![allow(
     dead_code,
     unused_imports,
-    reason = "each suite uses a different part of this module"
+    reason = "each program uses a different part of this module"
 )]
 
 pub mod oracle;
@@ -11,14 +11,29 @@ pub mod solids;
 
 pub use solids::binary_stl;
 
+use std::env;
 use std::ops::ControlFlow;
+use std::process::Command;
 
-use cusp_slicer::grid::Grid;
-use cusp_slicer::job::Stage;
+use cusp_slicer::grid::{Bins, Grid};
+use cusp_slicer::job::{Slicer, Stage};
 use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
+
+/// A slicer of the model that a file of these triangles has.
+pub fn load(triangles: &[[Vec3; 3]]) -> Slicer {
+    Slicer::load(&binary_stl(triangles)).unwrap()
+}
+
+/// Bins of 1 mm.
+pub fn bins(count: usize) -> Bins {
+    Bins {
+        count,
+        size_mm: 1.0,
+    }
+}
 
 /// A mesh of these triangles, on the plate.
 pub fn on_plate(triangles: &[[Vec3; 3]]) -> Mesh {
@@ -67,4 +82,23 @@ pub fn fingerprint(bytes: &[u8]) -> u64 {
     bytes.iter().fold(0xcbf2_9ce4_8422_2325, |hash, &byte| {
         (hash ^ u64::from(byte)).wrapping_mul(0x0100_0000_01b3)
     })
+}
+
+/// Runs a test in a process of its own, which measures nothing of other tests. `name` is the test's, with its modules.
+pub fn in_own_process(name: &str, test: impl FnOnce()) {
+    const IS_ALONE: &str = "CUSP_TEST_IS_ALONE";
+    if env::var_os(IS_ALONE).is_some() {
+        test();
+        return;
+    }
+    let output = Command::new(env::current_exe().unwrap())
+        .args(["--exact", name, "--nocapture"])
+        .env(IS_ALONE, "1")
+        .output()
+        .unwrap();
+    let [found, said] = [&output.stdout, &output.stderr].map(|it| String::from_utf8_lossy(it));
+    eprintln!("{said}");
+    // If no test has the name, none fails.
+    let is_passed = output.status.success() && found.contains("test result: ok. 1 passed;");
+    assert!(is_passed, "{name} fails in a process of its own");
 }

@@ -8,9 +8,9 @@ use cusp_slicer::model::Mesh;
 use cusp_slicer::plan::Plan;
 use glam::Vec3;
 
+use super::contours_of;
 use crate::common::on_plate;
 use crate::common::solids::{self, Triangles};
-use crate::contours_of;
 
 /// Two bodies with a cavity, and part of another in it.
 fn solid() -> Triangles {

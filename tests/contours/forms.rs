@@ -4,9 +4,9 @@ use std::f64::consts::PI;
 
 use glam::{DVec2, Vec3};
 
+use super::section;
 use crate::common::solids::{self, Triangles};
 use crate::common::{assert_near, on_plate, oracle::section_mm2};
-use crate::section;
 
 /// Perimeter of the polygon of [`solids::circle`].
 fn circle_length(quarter: u32) -> f64 {

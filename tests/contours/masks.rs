@@ -7,10 +7,10 @@ use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
 
+use super::contours_of;
+use super::oracle::{distance, segments};
 use crate::common::solids::{self, Triangles};
 use crate::common::{on_plate, shifted_grid};
-use crate::contours_of;
-use crate::oracle::{distance, segments};
 
 /// How far an outline may be from that of the masks, in pixels: snapping moves vertices by half a step of 1/256 pixel along each axis.
 const SNAPPING: f64 = std::f64::consts::SQRT_2 / 512.0;

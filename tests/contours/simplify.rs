@@ -3,10 +3,10 @@
 use cusp_slicer::contour::{Lattice, Polygon};
 use glam::Vec3;
 
+use super::contours_of;
+use super::oracle::{distance, segments};
 use crate::common::on_plate;
 use crate::common::solids::{self, Triangles};
-use crate::contours_of;
-use crate::oracle::{distance, segments};
 
 /// Points of outlines, those between corners at most `apart` steps from each other.
 fn points(polygons: &[Polygon], apart: f64) -> Vec<[f64; 2]> {

@@ -2,9 +2,9 @@
 
 use glam::Vec3;
 
+use super::{contours_of, oracle};
 use crate::common::on_plate;
 use crate::common::solids::{self, Triangles};
-use crate::{contours_of, oracle};
 use cusp_slicer::contour::{Lattice, Polygon, Ring};
 
 const SIDE: usize = 12;

@@ -3,7 +3,7 @@
 use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;
 
-use crate::{Blank, error, inspected, only_fault, open, pixels, warnings};
+use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
 
 /// A file of 5 × 3 pixels of 0.04 mm: the top and the data of each layer, scrambled if `key` is not 0.
 fn blank(version: u32, key: u32, layers: &[(f32, Vec<u8>)]) -> Blank {

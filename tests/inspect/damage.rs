@@ -4,10 +4,10 @@
 use cusp_slicer::archive::read::{PrintFile, inspect};
 use cusp_slicer::progress::silent;
 
-use crate::ctb::ctb;
-use crate::goo::goo;
-use crate::photon_workshop::photon_workshop;
-use crate::zips::{anycubic, nanodlp};
+use super::ctb::ctb;
+use super::goo::goo;
+use super::photon_workshop::photon_workshop;
+use super::zips::{anycubic, nanodlp};
 
 /// One file of each format. The last byte of each is needed.
 fn files() -> Vec<Vec<u8>> {

@@ -3,7 +3,7 @@
 use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError};
 use cusp_slicer::format::Format;
 
-use crate::{Blank, error, inspected, only_fault, open, pixels, warnings};
+use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
 
 /// A layer: its top and its chunks.
 pub type Layer = (f32, Vec<u8>);

@@ -3,7 +3,7 @@
 use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;
 
-use crate::{Blank, error, inspected, only_fault, open, pixels, warnings};
+use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
 
 /// Where the tables of a file are.
 struct Tables {

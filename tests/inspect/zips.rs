@@ -5,7 +5,7 @@ use cusp_slicer::format::Format;
 use png::{BitDepth, ColorType};
 use serde_json::{Value, json};
 
-use crate::{error, inspected, only_fault, open, pixels, warnings, zipped};
+use super::{error, inspected, only_fault, open, pixels, warnings, zipped};
 
 type File = (String, Vec<u8>);
 

@@ -4,8 +4,8 @@ use cusp_slicer::job::{Options, Planner, Report};
 use cusp_slicer::profile::Metric;
 use glam::Vec3;
 
-use crate::common::solids;
-use crate::{code, load, options, plan};
+use super::{code, options, plan};
+use crate::common::{load, solids};
 
 /// A pyramid of 20 mm on a square of this side.
 fn pyramid(side_mm: f32) -> solids::Triangles {

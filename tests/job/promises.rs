@@ -1,13 +1,13 @@
 //! What a plan guarantees: tolerances, targets and true heights, with warnings where it cannot.
 
-use crate::common::{assert_near, quiet, solids};
+use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Minimize, Options, Snap};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 use std::io::Cursor;
 
-use crate::{code, load, options, plan};
+use super::{code, options, plan};
 
 #[test]
 fn output_that_would_be_black_is_an_error() {

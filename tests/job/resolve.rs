@@ -1,12 +1,12 @@
 //! How options are resolved, and which are rejected before any work is done.
 
-use crate::common::{assert_near, solids};
+use crate::common::{assert_near, load, solids};
 use cusp_slicer::Error;
 use cusp_slicer::job::{Minimize, Options, OptionsError, Planner};
 use cusp_slicer::plan::{HeightRange, PlanError};
 use std::ops::ControlFlow;
 
-use crate::{code, load, options, plan};
+use super::{code, options, plan};
 
 #[test]
 fn options_that_no_model_could_make_good_are_refused_before_sampling() {

@@ -5,8 +5,8 @@ use cusp_slicer::job::{Options, Slicer};
 use cusp_slicer::orientation::{Exclusion, Metrics, Quality, Search, SearchOptions};
 use glam::{DVec3, Quat, Vec3};
 
-use super::common::{assert_near, quiet};
-use super::{few, measure, metrics, options, slicer, solids, turned};
+use super::{few, measure, metrics, options, solids, turned};
+use crate::common::{assert_near, load, quiet};
 
 /// A square vessel on z = 0, open at the top.
 fn vessel(side: f32, height: f32, wall: f32) -> solids::Triangles {
@@ -38,7 +38,7 @@ fn vessel(side: f32, height: f32, wall: f32) -> solids::Triangles {
 fn found(triangles: &solids::Triangles, up: DVec3) -> (usize, f64) {
     let Metrics {
         islands, cups_mm2, ..
-    } = metrics(&mut slicer(triangles), &options(), up);
+    } = metrics(&mut load(triangles), &options(), up);
     (islands, cups_mm2)
 }
 
@@ -189,7 +189,7 @@ fn islands_and_cups_are_those_of_the_checks() {
 #[test]
 fn limits_exclude_directions_and_can_be_lifted_again() {
     let model = turned(&vessel(12.0, 9.0, 1.5), Quat::from_rotation_x(0.3));
-    let mut slicer = slicer(&model);
+    let mut slicer = load(&model);
     let mut orient =
         |search: &SearchOptions| slicer.orient(&options(), search, &mut quiet).unwrap();
     let free = orient(&few(150));

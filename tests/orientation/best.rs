@@ -1,6 +1,6 @@
 //! The best orientations of models with a known answer.
 
-use crate::common::{assert_near, quiet, solids};
+use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Options, OrientationReport, Stage};
 use cusp_slicer::orientation::{
     Candidate, Cost, Exclusion, Metrics, Quality, Search, SearchOptions, minima,
@@ -8,13 +8,11 @@ use cusp_slicer::orientation::{
 use glam::{DVec3, Quat, Vec3};
 use std::ops::ControlFlow;
 
-use crate::{
-    bean, degrees_between, degrees_off, few, measure, options, orient, slicer, tilt, turned,
-};
+use super::{bean, degrees_between, degrees_off, few, measure, options, orient, tilt, turned};
 
 #[test]
 fn directions_are_spread_evenly() {
-    let mut slicer = slicer(&solids::sphere(5.0, 3));
+    let mut slicer = load(&solids::sphere(5.0, 3));
     let directions = slicer.directions(&options(), 500).unwrap();
     // The axes of the file are added; a ball has no flats.
     assert_eq!(directions.len(), 506);
@@ -39,7 +37,7 @@ fn directions_are_spread_evenly() {
 #[test]
 fn flats_are_looked_at_exactly() {
     let slab = turned(&solids::cuboid(Vec3::new(40.0, 30.0, 4.0)), tilt());
-    let directions = slicer(&slab).directions(&options(), 10).unwrap();
+    let directions = load(&slab).directions(&options(), 10).unwrap();
     for axis in [Vec3::X, Vec3::Y, Vec3::Z] {
         let up = (tilt() * axis).as_dvec3();
         for wanted in [up, -up] {
@@ -148,7 +146,7 @@ fn rated(found: &OrientationReport) -> impl Iterator<Item = (f64, Metrics)> {
 #[test]
 fn alpha_and_the_terms_do_what_they_say() {
     let model = bean();
-    let mut slicer = slicer(&model);
+    let mut slicer = load(&model);
     let directions = slicer.directions(&options(), 200).unwrap();
     let candidates = measure(&mut slicer, &options(), &directions);
     let mut search = |alpha, cost, quality| {
@@ -235,7 +233,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
         pitch_mm: Some(0.1),
         ..options()
     };
-    let mut rod = slicer(&solids::cuboid(Vec3::new(155.0, 4.0, 4.0)));
+    let mut rod = load(&solids::cuboid(Vec3::new(155.0, 4.0, 4.0)));
     let lying = &measure(&mut rod, &plate, &[DVec3::Z.to_array()])[0];
     assert_eq!(lying.excluded, None);
     assert!(lying.size_mm[0] <= 143.0 && lying.size_mm[1] <= 89.0);
@@ -246,7 +244,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
     let planned = pollster::block_on(rod.plan(&there, &mut quiet)).unwrap();
     assert_eq!(planned.layers, lying.metrics.unwrap().layers);
 
-    let mut longer = slicer(&solids::cuboid(Vec3::new(175.0, 4.0, 4.0)));
+    let mut longer = load(&solids::cuboid(Vec3::new(175.0, 4.0, 4.0)));
     let found = measure(
         &mut longer,
         &plate,
@@ -261,7 +259,7 @@ fn what_does_not_fit_is_excluded_and_what_fits_askew_is_turned() {
         ..Options::default()
     };
     // Too long for the plate, for the height, and for the diagonal.
-    let mut tower = slicer(&solids::cuboid(Vec3::new(400.0, 4.0, 4.0)));
+    let mut tower = load(&solids::cuboid(Vec3::new(400.0, 4.0, 4.0)));
     let found = tower.orient(&printer, &few(50), &mut quiet).unwrap();
     assert!(found.best.is_empty());
     assert_eq!(found.now.excluded, Some(Exclusion::TooLarge));
@@ -297,7 +295,7 @@ fn a_height_is_that_of_the_present_pose() {
 
 #[test]
 fn searches_end_when_nobody_wants_them() {
-    let mut slicer = slicer(&bean());
+    let mut slicer = load(&bean());
     let mut calls = 0;
     let stopped = slicer.orient(&options(), &few(2000), &mut |stage, fraction| {
         assert_eq!(stage, Stage::Orientation);

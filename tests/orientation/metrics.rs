@@ -1,18 +1,18 @@
 //! The metrics of one orientation, against closed forms and naive oracles.
 
-use crate::common::{assert_near, quiet, solids};
+use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Options, Snap};
 use cusp_slicer::model::Pose;
 use cusp_slicer::prepare::{SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Vec3};
 
-use crate::{bean, few, measure, metrics, options, orient, slicer};
+use super::{bean, few, measure, metrics, options, orient};
 
 #[test]
 fn candidates_are_what_a_preview_in_their_pose_shows() {
     let model = bean();
-    let mut slicer = slicer(&model);
+    let mut slicer = load(&model);
     let directions = slicer.directions(&options(), 12).unwrap();
     for metric in Metric::ALL {
         let options = Options {
@@ -49,7 +49,7 @@ fn candidates_are_what_a_preview_in_their_pose_shows() {
 #[test]
 fn weights_count_facet_by_facet() {
     let model = bean();
-    let mut slicer = slicer(&model);
+    let mut slicer = load(&model);
     let weights = model
         .iter()
         .map(|corners| if corners[0].x > 0.0 { 1.0 } else { 0.3 });
@@ -83,7 +83,7 @@ fn weights_count_facet_by_facet() {
 #[test]
 fn overhangs_have_closed_forms() {
     let (side, height) = (10.0, 12.0);
-    let mut tower = slicer(&solids::cuboid(Vec3::new(side, side, height)));
+    let mut tower = load(&solids::cuboid(Vec3::new(side, side, height)));
     let at = |degrees: f64| {
         let (sine, cosine) = degrees.to_radians().sin_cos();
         DVec3::new(0.0, -sine, cosine)
@@ -102,7 +102,7 @@ fn overhangs_have_closed_forms() {
         assert_near(found.overhang_mm2, expected, 1e-3);
     }
     // A cone whose side is at 60° to level needs no support, neither on its tip nor on its base.
-    let mut cone = slicer(&solids::cone(5.0, 5.0 * 3f64.sqrt(), 16));
+    let mut cone = load(&solids::cone(5.0, 5.0 * 3f64.sqrt(), 16));
     assert_near(
         metrics(&mut cone, &options(), -DVec3::Z).overhang_mm2,
         0.0,
@@ -113,14 +113,14 @@ fn overhangs_have_closed_forms() {
         0.0,
         1e-9,
     );
-    let mut flat = slicer(&solids::cone(8.0, 4.0, 16));
+    let mut flat = load(&solids::cone(8.0, 4.0, 16));
     assert!(metrics(&mut flat, &options(), -DVec3::Z).overhang_mm2 > 200.0);
 }
 
 #[test]
 fn supports_are_estimated_by_their_closed_form() {
     let [side, height] = [12.0, 6.0];
-    let mut board = slicer(&solids::cuboid(Vec3::new(side, side, height)));
+    let mut board = load(&solids::cuboid(Vec3::new(side, side, height)));
     let [side, height] = [f64::from(side), f64::from(height)];
     let circle = |diameter: f64| std::f64::consts::PI / 4.0 * diameter * diameter;
     for strength in [
@@ -169,7 +169,7 @@ fn estimates_of_supports_order_directions_as_what_is_built_does() {
         .iter()
         .map(|it| it.map(|corner| 4.0 * corner))
         .collect();
-    let mut model = slicer(&large);
+    let mut model = load(&large);
     let options = Options {
         supports: Some(Supporting::default()),
         pitch_mm: Some(0.2),
@@ -231,7 +231,7 @@ fn naive_roughness(corners: &[f32], z_mm: &[f64]) -> f64 {
 #[test]
 fn roughness_is_that_of_every_facet_in_its_layers() {
     let model = bean();
-    let mut slicer = slicer(&model);
+    let mut slicer = load(&model);
     for direction in [
         DVec3::Z,
         DVec3::X,
@@ -280,7 +280,7 @@ fn a_ball_is_the_same_from_everywhere() {
 
 #[test]
 fn upside_down_a_model_has_as_many_layers() {
-    let mut slicer = slicer(&bean());
+    let mut slicer = load(&bean());
     let directions = slicer.directions(&options(), 60).unwrap();
     for metric in [Metric::Cusp, Metric::Roughness, Metric::Area] {
         let options = Options {

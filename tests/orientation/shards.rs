@@ -1,16 +1,16 @@
 //! Orientation searches in shards.
 
-use crate::common::{quiet, solids};
+use crate::common::{load, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::job::{Options, OrientationPart, OrientationReport};
 use cusp_slicer::orientation::shard::{MergeError, Shard};
 
-use crate::{bean, few, options, orient, slicer};
+use super::{bean, few, options, orient};
 
 fn parts(model: &solids::Triangles, count: usize) -> Vec<OrientationPart> {
     (1..=count)
         .map(|number| {
-            let mut slicer = slicer(model);
+            let mut slicer = load(model);
             let shard = Shard { number, count };
             let part = slicer.measure_shard(&options(), &few(50), shard, &mut quiet);
             // Through JSON, as between machines.
@@ -21,7 +21,7 @@ fn parts(model: &solids::Triangles, count: usize) -> Vec<OrientationPart> {
 }
 
 fn merge(parts: &[OrientationPart], options: &Options) -> Result<OrientationReport, Error> {
-    let mut slicer = slicer(&bean());
+    let mut slicer = load(&bean());
     let search = slicer.merge_shards(options, &few(50), parts)?;
     slicer.finish_search(options, search, &mut quiet)
 }

@@ -6,8 +6,8 @@ use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::{PlanError, uniform};
 
+use super::{FIGURE_3, limits, random_errors, sum};
 use crate::common::assert_near;
-use crate::{FIGURE_3, limits, random_errors, sum};
 
 #[test]
 fn greedy_planners_fill_every_segment_and_may_exceed_the_tolerance() {

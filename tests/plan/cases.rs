@@ -4,8 +4,9 @@ use cusp_slicer::plan::segment::Segments;
 use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError};
 use cusp_slicer::profile::LayerErrors;
 
+use super::{limits, random_errors};
+use crate::common::bins;
 use crate::common::oracle::Rules;
-use crate::{bins, limits, random_errors};
 
 /// A model of bins of 1 mm with limits.
 pub struct Case {

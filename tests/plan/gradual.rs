@@ -4,8 +4,8 @@ use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::{PlanError, gradual};
 
-use crate::cases::{self, assert_without_snap_planes, thicknesses};
-use crate::{limits, sum};
+use super::cases::{self, assert_without_snap_planes, thicknesses};
+use super::{limits, sum};
 
 fn greatest_change(boundaries: &[u32]) -> u32 {
     let thicknesses = thicknesses(boundaries);

@@ -5,8 +5,8 @@ use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::profile::LayerErrors;
 use cusp_slicer::profile::largest::{LargestError, Strictness};
 
+use super::{in_tenths, limits, random_tenths, segment, sum, volume};
 use crate::common::oracle::{self, Rules};
-use crate::{in_tenths, limits, random_tenths, segment, sum, volume};
 
 /// Models of random heights, at least one of them of `bins` bins.
 fn random_models(random: &mut fastrand::Rng, bins: usize) -> Vec<Vec<u64>> {

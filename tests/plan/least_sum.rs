@@ -6,8 +6,8 @@ use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::{PlanError, least_sum};
 
-use crate::cases::{self, assert_without_snap_planes};
-use crate::{limits, volume};
+use super::cases::{self, assert_without_snap_planes};
+use super::{limits, volume};
 
 #[test]
 fn no_set_of_as_many_planes_has_a_smaller_sum() {

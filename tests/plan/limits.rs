@@ -8,8 +8,8 @@ use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError, uniform};
 use cusp_slicer::profile::{LayerErrors, Profile};
 use cusp_slicer::quantity::Quantity;
 
-use crate::common::assert_near;
-use crate::{bins, limits, plan, sum};
+use super::{limits, plan, sum};
+use crate::common::{assert_near, bins};
 
 #[test]
 fn steps_and_thicknesses_of_any_size_are_answered() {

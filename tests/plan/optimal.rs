@@ -7,11 +7,11 @@ use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::profile::{ErrorSum, LayerErrors};
 use cusp_slicer::resin::Resin;
 
-use crate::cases::{self, Case};
-use crate::common::{assert_near, oracle};
-use crate::{
+use super::cases::{self, Case};
+use super::{
     FIGURE_3, error_sum, in_tenths, limits, plan, random_tenths, resin, segment, sum, volume,
 };
+use crate::common::{assert_near, oracle};
 
 /// The error of the layer between two boundaries.
 fn between(errors: &ErrorSum) -> impl Fn(u32, u32) -> u64 {

@@ -7,8 +7,8 @@ use cusp_slicer::plan::{Limits, PlanError, thicknesses};
 use cusp_slicer::profile::LayerErrors;
 use cusp_slicer::progress::silent;
 
-use crate::cases::{self, Case, assert_without_snap_planes};
-use crate::{limits, sum, volume};
+use super::cases::{self, Case, assert_without_snap_planes};
+use super::{limits, sum, volume};
 
 /// Every plan of a case up to the heights near the top of the model, by height.
 struct All {

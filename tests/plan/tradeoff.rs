@@ -6,8 +6,8 @@ use cusp_slicer::plan::tradeoff::{Goal, curve, tolerance_for};
 use cusp_slicer::plan::{Limits, PlanError};
 use cusp_slicer::resin::Resin;
 
+use super::{limits, plan, random_errors, resin, sum};
 use crate::common::assert_near;
-use crate::{limits, plan, random_errors, resin, sum};
 
 #[test]
 fn an_infeasible_profile_names_the_heights_and_what_would_do() {

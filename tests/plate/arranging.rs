@@ -4,8 +4,8 @@ use cusp_slicer::arrange::{ArrangeError, Arranging};
 use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
 use glam::Vec3;
 
+use super::{job, options, pixels, plan, plate, supported};
 use crate::common::solids;
-use crate::{job, options, pixels, plan, plate, supported};
 
 /// For each plate and model, the pixels that it lights in any layer, found from the masks of the plate with nothing else on it.
 fn shadows(
@@ -163,7 +163,7 @@ fn supports_count_when_copies_are_arranged() {
         y_mm: 0.0,
         turn_deg: 90,
     });
-    let bare = job(crate::options(), &[2, 0]);
+    let bare = job(super::options(), &[2, 0]);
     assert_eq!(plate(&models).problems(&bare, &near).unwrap(), []);
     let problems = plate(&models).problems(&options, &near).unwrap();
     assert!(!problems.is_empty());

@@ -7,8 +7,8 @@ use cusp_slicer::job::{ModelOptions, Options, Placement, PlateOptions};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
 
-use crate::common::{quiet, solids};
-use crate::{job, load, options, pixels, plan, plate, supported};
+use super::{job, options, pixels, plan, plate, supported};
+use crate::common::{load, quiet, solids};
 use cusp_slicer::job::{Error, OptionsError};
 use cusp_slicer::model::FacetClass;
 use cusp_slicer::prepare::Supporting;

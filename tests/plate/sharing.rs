@@ -6,8 +6,8 @@ use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;
 
-use crate::common::{assert_near, quiet, solids};
-use crate::{job, load, options, plan, plate};
+use super::{job, options, plan, plate};
+use crate::common::{assert_near, load, quiet, solids};
 
 #[test]
 fn copies_cost_the_rays_of_one() {
@@ -85,7 +85,7 @@ fn no_model_of_a_plate_exceeds_its_own_tolerance_and_each_alone_needs_fewer_laye
             let mut alone = load(solid);
             let of_model = cusp_slicer::job::Options {
                 tolerance: Some(tolerance),
-                ..crate::options()
+                ..super::options()
             };
             let alone = pollster::block_on(alone.plan(&of_model, &mut quiet)).unwrap();
             assert!(alone.layers <= models[model].layers + 1);

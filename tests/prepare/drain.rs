@@ -7,8 +7,8 @@ use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, plugs};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
-use crate::common::{assert_near, quiet, solids};
-use crate::{hollowed, plan, slicer};
+use super::{hollowed, plan};
+use crate::common::{assert_near, load, quiet, solids};
 
 /// A hole of 3 mm into the side of a cube of 20 mm.
 const SIDE: Drain = Drain {
@@ -34,7 +34,7 @@ fn automatic() -> Hollowing {
 
 #[test]
 fn a_hole_by_hand_goes_through_the_wall_and_no_further() {
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let solid = plan(&mut cube, &hollowed(Hollowing::default()));
     let report = plan(&mut cube, &hollowed(drained(vec![SIDE])));
     let void = report.hollowed.unwrap();
@@ -59,7 +59,7 @@ fn a_slanted_hole_is_deep_enough_for_its_whole_rim() {
         direction: [-1.0, 0.0, 1.0],
         ..SIDE
     };
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let void = plan(&mut cube, &hollowed(drained(vec![slanted])));
     let void = void.hollowed.unwrap();
     // The middle crosses a wall of 2 mm at 45°, and the farthest point of the rim enters it a radius later.
@@ -73,7 +73,7 @@ fn a_slanted_hole_is_deep_enough_for_its_whole_rim() {
 
 #[test]
 fn a_slanted_hole_is_where_it_was_asked_for_at_the_side_of_the_box() {
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let solid = plan(&mut cube, &hollowed(Hollowing::default()));
     for direction in [[-1.0, 0.0, 1.0], [-1.0, 0.5, -1.0], [-1.0, 1.0, 0.0]] {
         let slanted = Drain { direction, ..SIDE };
@@ -103,7 +103,7 @@ fn a_hole_that_meets_no_void_is_left_out_and_named() {
         direction: [1.0, 0.0, 0.0],
         ..SIDE
     };
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let report = plan(&mut cube, &hollowed(drained(vec![SIDE, outward])));
     assert_eq!(report.hollowed.unwrap().drains.len(), 1);
     assert_eq!(report.warnings, [Warning::DrainAstray { drain_number: 2 }]);
@@ -137,7 +137,7 @@ fn automatic_holes_leave_no_trap_and_no_cup() {
         ("table", table, 2),
     ];
     for (name, triangles, holes) in all {
-        let mut model = slicer(&triangles);
+        let mut model = load(&triangles);
         let codes = |slicer: &mut cusp_slicer::job::Slicer| {
             let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
             let of_hollows = [Code::Trap, Code::Cup, Code::SmallEscape];
@@ -160,7 +160,7 @@ fn automatic_holes_leave_no_trap_and_no_cup() {
 
 #[test]
 fn holes_of_a_report_can_be_given_again() {
-    let mut ball = slicer(&solids::sphere(15.0, 4));
+    let mut ball = load(&solids::sphere(15.0, 4));
     let report = plan(&mut ball, &hollowed(automatic()));
     let mask = ball.mask(30).unwrap();
     let drains = report.hollowed.clone().unwrap().drains;
@@ -186,7 +186,7 @@ fn a_hole_through_the_plate_ends_there() {
         depth_mm: Some(5.0),
         ..SIDE
     };
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let solid = plan(&mut cube, &hollowed(Hollowing::default()));
     for (drain, volume_mm3) in [
         (below, 14.05),
@@ -206,7 +206,7 @@ fn a_hole_through_the_plate_ends_there() {
 
 #[test]
 fn holes_that_no_plate_holds_are_left_out() {
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     for drain in [
         Drain {
             at_mm: [1e300, 0.0, 0.0],
@@ -246,7 +246,7 @@ fn holes_that_no_plate_holds_are_left_out() {
 
 #[test]
 fn a_direction_has_any_length() {
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     let usual = plan(&mut cube, &hollowed(drained(vec![SIDE])));
     for length in [1e-200, 1e200] {
         let drain = Drain {
@@ -260,7 +260,7 @@ fn a_direction_has_any_length() {
 
 #[test]
 fn holes_as_wide_as_the_model_are_not_made() {
-    let mut cube = slicer(&solids::cube(20.0));
+    let mut cube = load(&solids::cube(20.0));
     for diameter_mm in [25.0, 1e3] {
         let hollow = Hollowing {
             auto_drain: Some(AutoDrain {
@@ -283,7 +283,7 @@ fn pits_beside_a_hole_are_filled() {
             [[0.0, 0.0, 0.0], [17.0, 20.0, 1.0]],
             [[23.0, 0.0, 0.0], [40.0, 20.0, 1.0]],
         ]);
-        let mut model = slicer(&model);
+        let mut model = load(&model);
         let report = plan(&mut model, &hollowed(automatic()));
         assert_eq!(report.warnings, []);
         let limits = Limits {
@@ -307,7 +307,7 @@ fn pits_beside_a_hole_are_filled() {
 #[test]
 fn automatic_holes_keep_off_what_weighs_more_where_they_can() {
     let triangles = solids::cube(20.0);
-    let mut cube = slicer(&triangles);
+    let mut cube = load(&triangles);
     let hole = |cube: &mut Slicer, spare| {
         let auto_drain = AutoDrain {
             spare,

@@ -10,12 +10,12 @@ use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
-use crate::common::{assert_near, quiet, solids};
-use crate::{hollowed, plan, slicer};
+use super::{hollowed, plan};
+use crate::common::{assert_near, load, quiet, solids};
 
 #[test]
 fn a_hollow_model_has_the_planes_of_the_solid_one() {
-    let mut ball = slicer(&solids::sphere(12.0, 5));
+    let mut ball = load(&solids::sphere(12.0, 5));
     for metric in [
         Metric::Cusp,
         Metric::Deviation,
@@ -45,7 +45,7 @@ fn a_hollow_model_has_the_planes_of_the_solid_one() {
 
 #[test]
 fn a_solid_model_is_as_it_was_before_it_was_hollowed() {
-    let mut cube = slicer(&solids::cube(15.0));
+    let mut cube = load(&solids::cube(15.0));
     let solid = Options {
         hollow: None,
         ..hollowed(Hollowing::default())
@@ -82,12 +82,12 @@ fn a_change_of_supports_hollows_nothing_again() {
         let file = slicer.write_archive(Vec::new(), &mut quiet).unwrap().0;
         (reports, file)
     };
-    let mut changed = slicer(&triangles);
+    let mut changed = load(&triangles);
     print(&mut changed, &of(None));
     for strength in [SupportStrength::Light, SupportStrength::Heavy] {
         let options = of(Some(strength));
         let (again, file) = print(&mut changed, &options);
-        let (anew, same) = print(&mut slicer(&triangles), &options);
+        let (anew, same) = print(&mut load(&triangles), &options);
         assert!(again < anew, "{again} of {anew}");
         assert!(file == same, "{strength:?}");
     }
@@ -95,7 +95,7 @@ fn a_change_of_supports_hollows_nothing_again() {
 
 #[test]
 fn a_model_that_is_too_thin_stays_solid_with_a_warning() {
-    let mut plate = slicer(&solids::cuboid(Vec3::new(20.0, 20.0, 3.0)));
+    let mut plate = load(&solids::cuboid(Vec3::new(20.0, 20.0, 3.0)));
     let report = plan(&mut plate, &hollowed(Hollowing::default()));
     assert_eq!(report.hollowed, None);
     let (wall_mm, cavity_mm) = (2.0, 2.0);
@@ -176,7 +176,7 @@ fn lengths_that_nothing_can_be_made_of_are_refused() {
         assert_eq!(option, name);
     }
     // Whatever is large leaves a model solid.
-    let mut cube = slicer(&solids::cube(10.0));
+    let mut cube = load(&solids::cube(10.0));
     for large in [100.0, 500.0] {
         for hollow in [
             Hollowing {
@@ -214,7 +214,7 @@ fn slicers_of_filament_printers_hollow_by_themselves() {
 
 #[test]
 fn holes_by_hand_are_for_a_model_alone() {
-    let cubes = vec![slicer(&solids::cube(10.0)), slicer(&solids::cube(12.0))];
+    let cubes = vec![load(&solids::cube(10.0)), load(&solids::cube(12.0))];
     let drain = Drain {
         at_mm: [5.0, 0.0, 5.0],
         direction: [-1.0, 0.0, 0.0],
@@ -251,7 +251,7 @@ fn holes_by_hand_are_for_a_model_alone() {
 
 #[test]
 fn what_is_larger_than_any_plate_is_refused_without_a_panic() {
-    let mut cube = slicer(&solids::cube(10.0));
+    let mut cube = load(&solids::cube(10.0));
     for height_mm in [1e7, 1e12, 1e19] {
         let options = Options {
             height_mm: Some(height_mm),
@@ -267,7 +267,7 @@ fn what_is_larger_than_any_plate_is_refused_without_a_panic() {
         assert!(pollster::block_on(cube.plan(&options, &mut quiet)).is_err());
     }
     // A sheet with more columns than memory holds.
-    let mut sheet = slicer(&solids::cuboid(Vec3::new(3000.0, 3000.0, 1.5)));
+    let mut sheet = load(&solids::cuboid(Vec3::new(3000.0, 3000.0, 1.5)));
     let options = Options {
         pitch_mm: None,
         rays: 64,

@@ -2,9 +2,9 @@
 
 use cusp_slicer::inspect::{Code, Limits};
 
-use crate::forms::{assert_codes, joined, slab, walls, walls_with_door};
-use crate::solids::Triangles;
-use crate::{block, check, of_code, strict};
+use super::forms::{assert_codes, joined, slab, walls, walls_with_door};
+use super::solids::Triangles;
+use super::{block, check, of_code, strict};
 
 /// A box of 10 mm that is hollow, with a hole of this width through its wall at mid-height, and open nowhere else.
 fn bottle(hole_mm: f32) -> Triangles {

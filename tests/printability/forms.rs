@@ -3,9 +3,9 @@
 use cusp_slicer::inspect::{Code, Limits, Printability, Severity, Verdict};
 use glam::{Mat3, Vec3};
 
+use super::solids::Triangles;
+use super::{block, check, of_code, strict};
 use crate::common::{assert_near, solids};
-use crate::solids::Triangles;
-use crate::{block, check, of_code, strict};
 
 /// Four walls of a square of 10 mm, 1 mm thick.
 pub fn walls(bottom: f32, top: f32) -> Triangles {

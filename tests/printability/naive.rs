@@ -5,9 +5,9 @@ use cusp_slicer::mask::{Masks, Samples};
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
 
+use super::voxels::{Found, Voxels};
+use super::{masks_of, plan_of, strict};
 use crate::common::{on_plate, solids};
-use crate::voxels::{Found, Voxels};
-use crate::{masks_of, plan_of, strict};
 
 /// The findings in whole numbers.
 fn in_whole_numbers(found: &Printability, masks: &Masks, plan: &Plan) -> Vec<Found> {
@@ -157,7 +157,7 @@ fn random_hollows(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triang
             if !cells[0] {
                 let low = [x as f32 * x_mm, y * y_mm, z * 0.06];
                 let high = [end as f32 * x_mm, (y + 1.0) * y_mm, (z + 1.0) * 0.06];
-                all.extend(crate::block(low, high));
+                all.extend(super::block(low, high));
             }
             x = end;
         }
@@ -168,7 +168,7 @@ fn random_hollows(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triang
 #[test]
 pub fn random_hollows_have_the_findings_of_brute_force() {
     let mut escapes = 0;
-    for seed in 0..200 {
+    for seed in 0..100 {
         let rng = &mut fastrand::Rng::with_seed(seed);
         let (masks, plan) = random_masks(rng, random_hollows);
         let pitch_mm = masks.grid.pitch_mm;
@@ -179,9 +179,9 @@ pub fn random_hollows_have_the_findings_of_brute_force() {
         };
         compare(&format!("seed {seed}"), &masks, &plan, &limits);
         let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap();
-        escapes += crate::of_code(&found, Code::SmallEscape).len();
+        escapes += super::of_code(&found, Code::SmallEscape).len();
     }
-    assert!(escapes > 50, "{escapes} small escapes in all");
+    assert!(escapes > 25, "{escapes} small escapes in all");
 }
 
 #[test]
@@ -220,7 +220,7 @@ fn solids_have_the_findings_of_brute_force() {
 #[test]
 fn what_is_ignored_is_not_found() {
     let triangles = crate::common::solids::frame();
-    let plan = crate::layers_of(10.0);
+    let plan = super::layers_of(10.0);
     let masks = masks_of(&triangles, [0.1; 2], &plan, Samples::ONE);
     let mut limits = Limits {
         bridge_mm: 0.0,

@@ -5,9 +5,9 @@ use cusp_slicer::mask::Samples;
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
 
+use super::{masks_with, plan_of, strict};
 use crate::common::on_plate;
 use crate::common::solids::{self, Triangles, random_boxes};
-use crate::{masks_with, plan_of, strict};
 
 const PITCH_MM: f64 = 0.1;
 

@@ -3,9 +3,9 @@
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::read::{ReadError, read};
 
+use super::obj::obj;
+use super::package::{START, Zipping, model, object, relationships, zipped};
 use crate::common::{binary_stl, solids};
-use crate::obj::obj;
-use crate::package::{START, Zipping, model, object, relationships, zipped};
 
 fn files() -> Vec<Vec<u8>> {
     let cube = solids::cube(3.0);

@@ -3,9 +3,9 @@
 use cusp_slicer::model::read::read;
 use cusp_slicer::model::read::threemf::{ThreeMfError, ThreeMfFeature, XmlFault};
 
+use super::package::{START, Zipping, model, object, package, zipped};
+use super::threemf::{error, error_of, read_model};
 use crate::common::solids;
-use crate::package::{START, Zipping, model, object, package, zipped};
-use crate::threemf::{error, error_of, read_model};
 
 #[test]
 fn errors_name_the_part_and_the_line() {

@@ -8,8 +8,8 @@ use cusp_slicer::model::read::{Contents, ReadError, read};
 use cusp_slicer::model::{Mesh, ModelUnit};
 use glam::Vec3;
 
+use super::package::{START, Zipping, mesh, model, object, of, package, relationships, zipped};
 use crate::common::{assert_near, solids};
-use crate::package::{START, Zipping, mesh, model, object, of, package, relationships, zipped};
 
 pub fn read_model(attributes: &str, resources: &str, build: &str) -> Result<Contents, ReadError> {
     read(&package(&model(attributes, resources, build), &[]))

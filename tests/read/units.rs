@@ -8,9 +8,9 @@ use cusp_slicer::orientation::SearchOptions;
 use cusp_slicer::warning::{UnitReading, Warning};
 use glam::Vec3;
 
+use super::obj::obj;
+use super::package;
 use crate::common::{binary_stl, quiet, solids};
-use crate::obj::obj;
-use crate::package;
 
 fn options() -> Options {
     Options {

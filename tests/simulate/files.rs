@@ -8,9 +8,9 @@ use cusp_slicer::simulation::{Knowledge, Placement, SimulationError, simulate};
 use glam::Vec3;
 use std::ops::ControlFlow;
 
+use super::{by_hand, error, measured, png_of, slice, uniform, unzipped, zipped};
 use crate::common::assert_near;
 use crate::common::solids::{Triangles, cube, cuboid, moved};
-use crate::{by_hand, error, measured, png_of, slice, uniform, unzipped, zipped};
 
 /// A block with a smaller one on its left end, and one at its back: no mirror image of it is itself.
 fn steps() -> Triangles {

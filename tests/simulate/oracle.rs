@@ -5,9 +5,9 @@ use cusp_slicer::simulation::Knowledge;
 use fastrand::Rng;
 use glam::{DVec3, Quat, Vec3};
 
+use super::{by_hand, measured};
 use crate::common::assert_near;
 use crate::common::solids::{Triangles, cuboid, sphere};
-use crate::{by_hand, measured};
 
 /// The faces of a stack: corners in order around each.
 struct Faces {

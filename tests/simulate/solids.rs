@@ -4,9 +4,9 @@ use cusp_slicer::model::Pose;
 use cusp_slicer::simulation::Knowledge;
 use glam::Vec3;
 
+use super::{measured, slice, sliced_and_measured, uniform, with_manifest};
 use crate::common::assert_near;
 use crate::common::solids::{cone, cube, cuboid, inverted, moved, sphere};
-use crate::{measured, slice, sliced_and_measured, uniform, with_manifest};
 
 #[test]
 fn a_cube_of_whole_layers_is_printed_to_half_a_pixel() {

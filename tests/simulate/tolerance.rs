@@ -6,9 +6,9 @@ use cusp_slicer::profile::Metric;
 use cusp_slicer::simulation::{Knowledge, Simulation};
 use glam::Vec3;
 
+use super::measured;
 use crate::common::solids::{self, Triangles};
 use crate::common::{binary_stl, quiet};
-use crate::measured;
 
 fn options() -> Options {
     Options {
@@ -26,6 +26,12 @@ fn printed(triangles: &Triangles, options: &Options) -> (Report, Simulation) {
     let report = report.clone();
     let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
     (report, measured(triangles, &bytes, &Knowledge::default()))
+}
+
+/// The solid at half its size: an eighth of the pixels of all layers, which are as large as before.
+fn halved(triangles: &[[Vec3; 3]]) -> Triangles {
+    let facets = triangles.iter();
+    facets.map(|it| it.map(|corner| corner * 0.5)).collect()
 }
 
 /// Asserts that no point of the print is farther from the model than the report says, but for the pixels.
@@ -48,7 +54,7 @@ fn no_point_of_a_print_is_farther_from_the_model_than_its_tolerance() {
             metric: Metric::Deviation,
             ..options()
         };
-        let (report, simulation) = holds(name, &triangles, &options);
+        let (report, simulation) = holds(name, &halved(&triangles), &options);
         assert!(report.max_deviation_mm <= 0.0325 + 1e-9, "{name}");
         // A model of one body without thin parts is as near to the print.
         if ["cube", "sphere", "cylinder", "cone", "inverted sphere"].contains(&name) {
@@ -61,7 +67,7 @@ fn no_point_of_a_print_is_farther_from_the_model_than_its_tolerance() {
 
 #[test]
 fn reports_bound_the_distance_under_every_metric_and_planner() {
-    let ball = solids::sphere(4.0, 5);
+    let (ball, frame) = (solids::sphere(2.5, 5), halved(&solids::frame()));
     for metric in Metric::ALL {
         let options = Options {
             metric,
@@ -82,7 +88,7 @@ fn reports_bound_the_distance_under_every_metric_and_planner() {
             planner,
             ..options()
         };
-        for (name, triangles) in [("ball", &ball), ("frame", &solids::frame())] {
+        for (name, triangles) in [("ball", &ball), ("frame", &frame)] {
             holds(&format!("{name}, {}", planner.name()), triangles, &options);
         }
     }
@@ -90,7 +96,7 @@ fn reports_bound_the_distance_under_every_metric_and_planner() {
 
 #[test]
 fn the_tolerance_holds_whatever_thicknesses_are_allowed() {
-    let ball = solids::sphere(4.0, 5);
+    let (ball, frame) = (solids::sphere(2.5, 5), halved(&solids::frame()));
     let rules: [fn(&mut Options); 4] = [
         |it| it.thicknesses_mm = vec![0.05, 0.08, 0.12],
         |it| it.max_thicknesses = Some(2),
@@ -103,7 +109,7 @@ fn the_tolerance_holds_whatever_thicknesses_are_allowed() {
             ..options()
         };
         set(&mut options);
-        for (name, triangles) in [("ball", &ball), ("frame", &solids::frame())] {
+        for (name, triangles) in [("ball", &ball), ("frame", &frame)] {
             let (report, _) = holds(name, triangles, &options);
             assert!(report.max_error <= 0.0325 + 1e-9, "{name} {options:?}");
             // A first layer of 0.2 mm is farther from the ball than any other, and the report says so.

@@ -1,13 +1,9 @@
 //! The command line as users see it: exit codes, one-line errors, JSON, and complete files.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod batch;
 mod bounds;
 mod calibrate;
 mod check;
-#[path = "../common/mod.rs"]
-mod common;
 mod config;
 mod contours;
 mod convert;
@@ -30,7 +26,7 @@ mod verify;
 use std::path::PathBuf;
 use std::process::{Command, Output};
 
-use common::{binary_stl, solids};
+use crate::common::{binary_stl, solids};
 use serde_json::Value;
 use tempfile::TempDir;
 

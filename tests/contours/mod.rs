@@ -1,9 +1,5 @@
 //! Contours of layers: sections as polygons, and their files.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod files;
 mod forms;
 mod masks;
@@ -11,7 +7,7 @@ mod oracle;
 mod simplify;
 mod union;
 
-use common::{on_plate, solids::Triangles};
+use crate::common::{on_plate, solids::Triangles};
 use cusp_slicer::contour::{Contours, Lattice, LayerHeights, Polygon, Ring, cut};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};

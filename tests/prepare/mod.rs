@@ -1,7 +1,5 @@
 //! Hollowing and drain holes against closed forms, naive distances and the checks.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod drain;
 mod hollow;
 mod jobs;
@@ -9,9 +7,8 @@ mod support;
 
 use cusp_slicer::job::{Options, Report, Slicer};
 use cusp_slicer::prepare::Hollowing;
-use glam::Vec3;
 
-use common::{quiet, solids};
+use crate::common::quiet;
 
 /// Options that hollow a model, with pixels of 0.1 mm.
 fn hollowed(hollow: Hollowing) -> Options {
@@ -20,10 +17,6 @@ fn hollowed(hollow: Hollowing) -> Options {
         pitch_mm: Some(0.1),
         ..Options::default()
     }
-}
-
-fn slicer(triangles: &[[Vec3; 3]]) -> Slicer {
-    Slicer::load(&solids::binary_stl(triangles)).unwrap()
 }
 
 fn plan(slicer: &mut Slicer, options: &Options) -> Report {

@@ -1,26 +1,26 @@
-//! Printability, against the components and distance transforms of `scipy.ndimage`. Needs a Python with scipy: `python3`, or that of
-//! the variable `CUSP_PEERS_PYTHON`, which `cargo xtask test` sets. Without, the test is reported as ignored.
-
-#[path = "common/mod.rs"]
-mod common;
+//! Printability, against the components and distance transforms of `scipy.ndimage`.
 
 use std::collections::BTreeMap;
-use std::env;
 use std::fs;
 use std::process::Command;
 
-use common::on_plate;
-use common::solids::{self, Triangles};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::inspect::{Code, Held, Limits, Printability, Severities, Severity, inspect};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{Masks, Samples, Side};
 use cusp_slicer::plan::Plan;
 use cusp_slicer::progress::silent;
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use serde_json::json;
 
-const SCRIPT: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/peers/python/printability.py");
+use crate::common::on_plate;
+use crate::common::solids::{self, Triangles};
+use crate::{Need, python, succeeds, trial};
+
+const SCRIPT: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/interop/python/printability.py"
+);
 
 /// Pixels of the longer side of a solid.
 const PIXELS: f64 = 60.0;
@@ -32,8 +32,10 @@ const PAD: usize = 24;
 /// nothing below, is a kind of its own: there other programs' islands are those of the checks.
 type Found = BTreeMap<String, Vec<[u64; 3]>>;
 
-fn python() -> String {
-    env::var("CUSP_PEERS_PYTHON").unwrap_or_else(|_| "python3".to_owned())
+pub fn trials() -> Vec<Trial> {
+    let name = "printability::checks_are_those_of_scipy";
+    let needs = &[Need::Python("scipy.ndimage")];
+    vec![trial(name, needs, checks_are_those_of_scipy)]
 }
 
 /// Layers of two to six bins of a hundredth of the height.
@@ -83,13 +85,8 @@ fn by_scipy(masks: &Masks, plan: &Plan, limits: &Limits) -> Result<Found, Failed
     });
     fs::write(&job, about.to_string())?;
     fs::write(&lit, pixels_of(masks))?;
-    let output = Command::new(python())
-        .arg(SCRIPT)
-        .args([job, lit])
-        .output()?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into());
-    }
+    let mut command = Command::new(python());
+    let output = succeeds(command.arg(SCRIPT).args([job, lit]))?;
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
@@ -198,20 +195,4 @@ fn checks_are_those_of_scipy() -> Result<(), Failed> {
     }
     assert!(findings > 60, "{findings} findings in all");
     Ok(())
-}
-
-fn main() {
-    let test = || {
-        let found = Command::new(python())
-            .args(["-c", "import scipy.ndimage"])
-            .output();
-        if !found.is_ok_and(|found| found.status.success()) {
-            return Ok(Completion::ignored_with(
-                "no Python with scipy: CUSP_PEERS_PYTHON names one",
-            ));
-        }
-        checks_are_those_of_scipy().map(|()| Completion::Completed)
-    };
-    let trial = Trial::ignorable_test("checks_are_those_of_scipy", test);
-    libtest_mimic::run(&Arguments::from_args(), vec![trial]).exit();
 }

@@ -1,14 +1,10 @@
 //! Files for slicers of filament printers: what the slicers make of them, by their own rules as written down in `docs/filament.md`.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod file;
 
 use std::collections::HashMap;
 
-use common::{assert_near, binary_stl, quiet, solids};
+use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::filament::FilamentSlicer;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Slicer};

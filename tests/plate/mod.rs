@@ -1,16 +1,12 @@
 //! Several models in one job: arranging, planning for all, and masks of copies, against the models alone and naive oracles.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod arranging;
-#[path = "../common/mod.rs"]
-mod common;
 mod masks;
 mod sharing;
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{load, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport, Slicer};
+use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport};
 use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};
 
 /// Options with a screen of 40 × 30 mm in pixels of 0.1 mm.
@@ -36,10 +32,6 @@ fn supported() -> Options {
         }),
         ..options()
     }
-}
-
-fn load(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&binary_stl(triangles)).unwrap()
 }
 
 fn plate(models: &[&solids::Triangles]) -> Plate {

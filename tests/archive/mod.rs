@@ -1,9 +1,5 @@
 //! Print files, read back with independent libraries.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod convert;
 mod formats;
 mod png_zip;

@@ -1,21 +1,18 @@
-//! Print files as other programs read them, and masks as another slicer makes them. If a program is not installed, its
-//! tests are reported as ignored.
-
-mod common;
-#[path = "common/peer.rs"]
-mod peer;
+//! Print files as other programs read them, and masks as another slicer makes them.
 
 use std::fs::{self, File};
 use std::io::BufWriter;
 use std::path::{Path, PathBuf};
-use std::process::{Command, Output};
+use std::process::Command;
 
-use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
 use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting};
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use tempfile::TempDir;
+
+use crate::common::{binary_stl, quiet, solids};
+use crate::{Need, PRUSA_SLICER, peer, succeeds, trial};
 
 /// Decodes every mask of a print file with zlib alone and counts its lit pixels: one line per mask, in the zip's order.
 const DECODE: &str = r"
@@ -44,32 +41,39 @@ with zipfile.ZipFile(sys.argv[1]) as archive:
             print(len(rows) - rows.count(0))
 ";
 
-/// The programs that tests need, each with an argument that shows whether it is installed.
-const PYTHON: (&str, &str) = ("python3", "--version");
-const PNGCHECK: (&str, &str) = ("pngcheck", "-h");
-const UNZIP: (&str, &str) = ("unzip", "-v");
-const PRUSA_SLICER: (&str, &str) = ("prusa-slicer", "--help");
+/// Without packages of others, so that any does.
+const PYTHON: Need = Need::Program("python3", "--version");
 
-type Test = fn() -> Result<(), Failed>;
-
-fn tests() -> Vec<(&'static str, (&'static str, &'static str), Test)> {
+pub fn trials() -> Vec<Trial> {
     vec![
-        ("python_reads_every_mask", PYTHON, python_reads_every_mask),
-        (
-            "python_reads_more_files_than_zip_counts",
-            PYTHON,
+        trial(
+            "print_files::python_reads_every_mask",
+            &[PYTHON],
+            python_reads_every_mask,
+        ),
+        trial(
+            "print_files::python_reads_more_files_than_zip_counts",
+            &[PYTHON],
             python_reads_70_000_layers,
         ),
-        ("pngcheck_finds_nothing", PNGCHECK, pngcheck_finds_nothing),
-        ("unzip_finds_nothing", UNZIP, unzip_finds_nothing),
-        (
-            "masks_are_those_of_prusa_slicer",
-            PRUSA_SLICER,
+        trial(
+            "print_files::pngcheck_finds_nothing",
+            &[Need::Program("pngcheck", "-h")],
+            pngcheck_finds_nothing,
+        ),
+        trial(
+            "print_files::unzip_finds_nothing",
+            &[Need::Program("unzip", "-v")],
+            unzip_finds_nothing,
+        ),
+        trial(
+            "print_files::masks_are_those_of_prusa_slicer",
+            &[PRUSA_SLICER],
             masks_are_those_of_prusa_slicer,
         ),
-        (
-            "hollow_models_take_the_resin_of_prusa_slicers",
-            PRUSA_SLICER,
+        trial(
+            "print_files::hollow_models_take_the_resin_of_prusa_slicers",
+            &[PRUSA_SLICER],
             hollow_models_take_the_resin_of_prusa_slicers,
         ),
     ]
@@ -130,18 +134,9 @@ fn print_files(
     Ok(())
 }
 
-fn succeeds(command: &mut Command) -> Result<Output, Failed> {
-    let output = command.output()?;
-    if output.status.success() {
-        return Ok(output);
-    }
-    let said = [output.stdout, output.stderr].concat();
-    Err(format!("{command:?}: {}", String::from_utf8_lossy(&said)).into())
-}
-
 /// The number of lit pixels of each mask of a print file, as Python decodes it.
 fn lit_pixels(path: &Path) -> Result<Vec<u64>, Failed> {
-    let output = succeeds(Command::new(PYTHON.0).arg("-c").arg(DECODE).arg(path))?;
+    let output = succeeds(Command::new("python3").arg("-c").arg(DECODE).arg(path))?;
     let text = String::from_utf8(output.stdout)?;
     Ok(text.lines().map(str::parse).collect::<Result<_, _>>()?)
 }
@@ -203,7 +198,7 @@ fn pngcheck_finds_nothing() -> Result<(), Failed> {
         if pngs.len() < report.layers {
             return Err(format!("{} PNGs", pngs.len()).into());
         }
-        succeeds(Command::new(PNGCHECK.0).arg("-q").args(pngs)).map(|_| ())
+        succeeds(Command::new("pngcheck").arg("-q").args(pngs)).map(|_| ())
     })
 }
 
@@ -221,7 +216,7 @@ fn pngs_of(folder: &Path) -> Result<Vec<PathBuf>, Failed> {
 }
 
 fn unzip_finds_nothing() -> Result<(), Failed> {
-    print_files(|path, _, _| succeeds(Command::new(UNZIP.0).arg("-tq").arg(path)).map(|_| ()))
+    print_files(|path, _, _| succeeds(Command::new("unzip").arg("-tq").arg(path)).map(|_| ()))
 }
 
 /// `prusa-slicer` hollows by a level set (`OpenVDB`): inward by the wall and a closing distance, and back by that.
@@ -329,20 +324,4 @@ fn masks_are_those_of_prusa_slicer() -> Result<(), Failed> {
         }
     }
     Ok(())
-}
-
-fn main() {
-    let arguments = Arguments::from_args();
-    let trials = tests()
-        .into_iter()
-        .map(|(title, (program, asking), test)| {
-            Trial::ignorable_test(title, move || {
-                if Command::new(program).arg(asking).output().is_err() {
-                    return Ok(Completion::ignored_with(format!("no {program} on PATH")));
-                }
-                test().map(|()| Completion::Completed)
-            })
-        })
-        .collect();
-    libtest_mimic::run(&arguments, trials).exit();
 }

@@ -1,62 +1,50 @@
-//! Models that other programs write, and what others say of them: lib3mf and trimesh in the Python of `CUSP_PEERS_PYTHON`, which `cargo
-//! xtask test` makes, and `PrusaSlicer`. Where one is absent, its tests are reported as ignored.
-
-#![cfg(not(target_arch = "wasm32"))]
-
-mod common;
+//! Models that other programs write, and what others say of them: lib3mf, trimesh and `PrusaSlicer`.
 
 use std::collections::HashMap;
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::Path;
 use std::process::Command;
 
-use common::{binary_stl, solids};
 use cusp_slicer::job::{MeshInfo, Slicer};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::warning::Warning;
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use serde_json::Value;
 use tempfile::TempDir;
 
-const WRITER: &str = concat!(env!("CARGO_MANIFEST_DIR"), "/peers/python/models.py");
+use crate::common::{binary_stl, solids};
+use crate::{Need, python, succeeds, trial};
+
+const WRITER: &str = concat!(
+    env!("CARGO_MANIFEST_DIR"),
+    "/tests/interop/python/models.py"
+);
 const PRUSA_SLICER: &str = "prusa-slicer";
 
-type Test = fn() -> Result<(), Failed>;
-
-fn tests() -> Vec<(&'static str, bool, bool, Test)> {
+pub fn trials() -> Vec<Trial> {
+    const WRITERS: Need = Need::Python("lib3mf, trimesh");
     vec![
-        (
-            "models_of_lib3mf_and_trimesh_are_read_as_they_were_written",
-            true,
-            false,
+        trial(
+            "models::models_of_lib3mf_and_trimesh_are_read_as_they_were_written",
+            &[WRITERS],
             models_are_read_as_they_were_written,
         ),
-        (
-            "prusa_slicer_sees_the_same_bounds_and_volume",
-            true,
-            true,
+        trial(
+            "models::prusa_slicer_sees_the_same_bounds_and_volume",
+            &[WRITERS, crate::PRUSA_SLICER],
             prusa_slicer_sees_the_same,
         ),
-        (
-            "what_prusa_slicer_writes_is_what_it_read",
-            false,
-            true,
+        trial(
+            "models::what_prusa_slicer_writes_is_what_it_read",
+            &[crate::PRUSA_SLICER],
             what_prusa_slicer_writes_is_what_it_read,
         ),
     ]
 }
 
-fn python() -> Option<PathBuf> {
-    std::env::var_os("CUSP_PEERS_PYTHON").map(PathBuf::from)
-}
-
 /// Has models written to a folder, and returns what was written.
 fn write_models(folder: &Path) -> Result<Vec<Value>, Failed> {
-    let python = python().ok_or("no Python")?;
-    let output = Command::new(python).arg(WRITER).arg(folder).output()?;
-    if !output.status.success() {
-        return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
-    }
+    let output = succeeds(Command::new(python()).arg(WRITER).arg(folder))?;
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
@@ -177,11 +165,7 @@ fn what_prusa_slicer_writes_is_what_it_read() -> Result<(), Failed> {
             let written = folder.path().join(format!("{name}.{format}"));
             let export = format!("--export-{format}");
             let mut command = Command::new(PRUSA_SLICER);
-            command.arg(export).arg("-o").arg(&written).arg(&model);
-            let output = command.output()?;
-            if !output.status.success() {
-                return Err(String::from_utf8_lossy(&output.stderr).into_owned().into());
-            }
+            succeeds(command.arg(export).arg("-o").arg(&written).arg(&model))?;
             assert_same_as_prusa(&written, false)?;
             let (ours, theirs) = (info(&model)?, info(&written)?);
             near(
@@ -194,23 +178,4 @@ fn what_prusa_slicer_writes_is_what_it_read() -> Result<(), Failed> {
         }
     }
     Ok(())
-}
-
-fn main() {
-    let arguments = Arguments::from_args();
-    let tests = tests().into_iter();
-    let trials = tests.map(|(title, needs_python, needs_prusa, test)| {
-        Trial::ignorable_test(title, move || {
-            if needs_python && python().is_none() {
-                return Ok(Completion::ignored_with("no CUSP_PEERS_PYTHON"));
-            }
-            if needs_prusa && Command::new(PRUSA_SLICER).arg("--help").output().is_err() {
-                return Ok(Completion::ignored_with(format!(
-                    "no {PRUSA_SLICER} on PATH"
-                )));
-            }
-            test().map(|()| Completion::Completed)
-        })
-    });
-    libtest_mimic::run(&arguments, trials.collect()).exit();
 }

@@ -6,7 +6,7 @@
     reason = "each suite uses a different part of this module"
 )]
 
-#[path = "../../../tests/common/mod.rs"]
+#[path = "../../../common/mod.rs"]
 mod cusp;
 
 use std::io::{Cursor, Read};

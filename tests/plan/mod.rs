@@ -1,11 +1,7 @@
 //! Planners, against closed forms and naive oracles.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod baselines;
 mod cases;
-#[path = "../common/mod.rs"]
-mod common;
 mod gradual;
 mod largest;
 mod least_sum;
@@ -14,7 +10,7 @@ mod optimal;
 mod thicknesses;
 mod tradeoff;
 
-use cusp_slicer::grid::Bins;
+use crate::common::bins;
 use cusp_slicer::plan::optimal::Objective;
 use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::segment::Segment;
@@ -25,14 +21,6 @@ use cusp_slicer::profile::{ErrorSum, LayerErrors, Profile};
 use cusp_slicer::resin::Resin;
 
 const FIGURE_3: [f32; 8] = [0.2, 0.2, 0.2, 0.3, 0.4, 0.1, 0.2, 0.2];
-
-/// Bins of 1 mm.
-fn bins(count: usize) -> Bins {
-    Bins {
-        count,
-        size_mm: 1.0,
-    }
-}
 
 fn error_sum(density: &[f32]) -> ErrorSum {
     Profile {

@@ -1,10 +1,5 @@
 //! Reading models: valid files of every kind, and an error with its position for every invalid one.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
-
 mod damage;
 mod kinds;
 mod obj;

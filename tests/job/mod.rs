@@ -1,15 +1,11 @@
 //! The stages together: cancellation, progress, and what a change of options repeats.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod bounded;
-#[path = "../common/mod.rs"]
-mod common;
 mod numbers;
 mod promises;
 mod resolve;
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, load, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Report, Slicer, Stage};
@@ -23,10 +19,6 @@ fn options() -> Options {
         backend: Backend::Cpu,
         ..Options::default()
     }
-}
-
-fn load(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&binary_stl(triangles)).unwrap()
 }
 
 fn plan(slicer: &mut Slicer, options: &Options) -> Result<Report, Error> {

@@ -1,16 +1,12 @@
 //! Orientations: directions, metrics, the search, and the best orientations of models with a known answer.
 
-#![cfg(not(target_arch = "wasm32"))]
-
 mod basins;
 mod best;
-#[path = "../common/mod.rs"]
-mod common;
 mod metrics;
 mod search;
 mod shards;
 
-use common::{binary_stl, quiet, solids};
+use crate::common::{binary_stl, load, quiet, solids};
 use cusp_slicer::job::{Options, OrientationReport, Slicer};
 use cusp_slicer::orientation::{Candidate, Metrics, SearchOptions, Task};
 use glam::{DVec3, Quat, Vec3};
@@ -30,16 +26,12 @@ fn few(directions: usize) -> SearchOptions {
     }
 }
 
-fn slicer(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&binary_stl(triangles)).unwrap()
-}
-
 fn orient(
     triangles: &solids::Triangles,
     options: &Options,
     search: &SearchOptions,
 ) -> OrientationReport {
-    let mut slicer = slicer(triangles);
+    let mut slicer = load(triangles);
     slicer.orient(options, search, &mut quiet).unwrap()
 }
 

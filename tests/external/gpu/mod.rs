@@ -1,19 +1,19 @@
 //! The GPU backend against the CPU backend, on whatever adapter wgpu finds: the same LDI, bit for bit, for
-//! every solid. Without an adapter the tests are reported as ignored.
+//! every solid.
 
-#[path = "../common/mod.rs"]
-mod common;
 mod fallbacks;
 
-use common::{binary_stl, on_plate, quiet, shifted_grid, solids};
 use cusp_slicer::grid::Grid;
 use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
-use cusp_slicer::ldi::{Ldi, LdiError, cpu};
+use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use glam::Vec3;
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
+
+use crate::common::{binary_stl, on_plate, quiet, shifted_grid, solids};
+use crate::{Need, trial};
 
 /// Samples on both backends, on a grid shifted by `shift` pixels from the one that just covers the model.
 fn compare(
@@ -55,7 +55,14 @@ fn compare_method(
     }
 }
 
-type Test = Box<dyn Fn() -> Result<(), Failed> + Send>;
+type Test = Box<dyn FnOnce() -> Result<(), Failed> + Send>;
+
+pub fn trials() -> Vec<Trial> {
+    let tests = tests().into_iter();
+    tests
+        .map(|(title, test)| trial(format!("gpu::{title}"), &[Need::Gpu], test))
+        .collect()
+}
 
 fn tests() -> Vec<(String, Test)> {
     let whole = gpu::Tiling::default();
@@ -246,23 +253,4 @@ fn report_method() -> Result<(), Failed> {
     }
     let is_same = files.iter().all(|file| *file == files[0]);
     is_same.then_some(()).ok_or("print files differ".into())
-}
-
-fn main() {
-    let arguments = Arguments::from_args();
-    let missing = match pollster::block_on(Gpu::open(gpu::Adapters::Any)) {
-        Err(LdiError::NoGpu { system }) => Some(system),
-        _ => None,
-    };
-    let trials = tests()
-        .into_iter()
-        .map(|(title, test)| {
-            let missing = missing.clone();
-            Trial::ignorable_test(title, move || match missing {
-                Some(reason) => Ok(Completion::ignored_with(reason)),
-                None => test().map(|()| Completion::Completed),
-            })
-        })
-        .collect();
-    libtest_mimic::run(&arguments, trials).exit();
 }

@@ -1,9 +1,5 @@
 //! What print files print, measured against models: closed forms, hand-made files, and a naive oracle.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod files;
 mod oracle;
 mod solids;
@@ -11,8 +7,8 @@ mod tolerance;
 
 use std::io::{Cursor, Read as _, Write as _};
 
-use common::solids::Triangles;
-use common::{binary_stl, quiet};
+use crate::common::solids::Triangles;
+use crate::common::{binary_stl, quiet};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Slicer};
 use cusp_slicer::model::Mesh;

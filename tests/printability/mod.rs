@@ -1,17 +1,12 @@
 //! What the checks find on solids in closed form, against brute force on voxels, and under symmetries.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod escapes;
 mod forms;
 mod naive;
 mod symmetry;
-#[path = "../common/voxels.rs"]
 mod voxels;
 
-use common::{on_plate, solids};
+use crate::common::{on_plate, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::inspect::{
     Code, Finding, Held, Limits, Printability, Severities, Severity, inspect,

@@ -1,20 +1,16 @@
-//! Sections of layers, against those of trimesh, which does its own reading, cutting and joining. Needs a Python with trimesh, shapely,
-//! networkx, scipy and rtree: `python3`, or that of the variable `CUSP_PEERS_PYTHON`, which
-//! `cargo xtask test` sets. Without, the test is reported as ignored.
+//! Sections of layers, against those of trimesh, which does its own reading, cutting and joining.
 
-#[path = "common/mod.rs"]
-mod common;
-
-use std::env;
 use std::fs;
 use std::process::Command;
 
-use common::solids::{self, Triangles};
-use common::{binary_stl, on_plate};
 use cusp_slicer::contour::{Lattice, LayerHeights, Polygon, Ring, cut};
 use cusp_slicer::progress::{Cancelled, silent};
 use glam::Vec3;
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
+
+use crate::common::solids::{self, Triangles};
+use crate::common::{assert_near, binary_stl, on_plate};
+use crate::{Need, python, succeeds, trial};
 
 /// Prints area and length of all outlines of the section at each height.
 const SECTIONS: &str = r"
@@ -30,8 +26,10 @@ for z in map(float, sys.argv[2:]):
     print(float(flat.area), float(flat.length))
 ";
 
-fn python() -> String {
-    env::var("CUSP_PEERS_PYTHON").unwrap_or_else(|_| "python3".to_owned())
+pub fn trials() -> Vec<Trial> {
+    let needs = &[Need::Python("trimesh, shapely, networkx, scipy, rtree")];
+    let name = "sections::sections_are_those_of_trimesh";
+    vec![trial(name, needs, sections_are_those_of_trimesh)]
 }
 
 /// Solids whose bodies neither touch nor overlap: trimesh makes no union.
@@ -76,14 +74,8 @@ fn sections_are_those_of_trimesh() -> Result<(), Failed> {
             })
             .collect();
         let heights = layers.iter().map(|layer| layer.section_mm.to_string());
-        let output = Command::new(python())
-            .args(["-c", SECTIONS])
-            .arg(&path)
-            .args(heights)
-            .output()?;
-        if !output.status.success() {
-            return Err(String::from_utf8_lossy(&output.stderr).into());
-        }
+        let mut command = Command::new(python());
+        let output = succeeds(command.args(["-c", SECTIONS]).arg(&path).args(heights))?;
         let theirs = String::from_utf8(output.stdout)?;
         let mut theirs = theirs.lines();
         let step_mm = Lattice::of(&mesh.bounds()).step_mm();
@@ -100,25 +92,10 @@ fn sections_are_those_of_trimesh() -> Result<(), Failed> {
             let [their_area, their_length] = numbers[..] else {
                 panic!("{name} at {z}: {line}")
             };
-            common::assert_near(area, their_area, length * step_mm);
-            common::assert_near(length, their_length, points as f64 * 2.0 * step_mm);
+            assert_near(area, their_area, length * step_mm);
+            assert_near(length, their_length, points as f64 * 2.0 * step_mm);
             Ok::<_, Cancelled>(())
         })?;
     }
     Ok(())
-}
-
-fn main() {
-    let test = || {
-        let needed = "import trimesh, shapely, networkx, scipy, rtree";
-        let found = Command::new(python()).args(["-c", needed]).output();
-        if !found.is_ok_and(|found| found.status.success()) {
-            return Ok(Completion::ignored_with(
-                "no Python with trimesh: CUSP_PEERS_PYTHON names one",
-            ));
-        }
-        sections_are_those_of_trimesh().map(|()| Completion::Completed)
-    };
-    let trial = Trial::ignorable_test("sections_are_those_of_trimesh", test);
-    libtest_mimic::run(&Arguments::from_args(), vec![trial]).exit();
 }

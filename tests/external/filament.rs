@@ -1,20 +1,17 @@
-//! Plans for filament printers as programs of others see them. If a program is not installed, its tests are reported as ignored.
-
-mod common;
+//! Plans for filament printers as programs of others see them.
 
 use std::fs::{self, File};
 use std::path::Path;
 use std::process::Command;
 
-use common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Report, Slicer};
 use cusp_slicer::profile::Metric;
-use libtest_mimic::{Arguments, Completion, Failed, Trial};
+use libtest_mimic::{Failed, Trial};
 use tempfile::TempDir;
 
-/// A Python with `lib3mf`: this variable's, or the usual one.
-const PYTHON_VARIABLE: &str = "CUSP_PEERS_PYTHON";
+use crate::common::{binary_stl, quiet, solids};
+use crate::{Need, PRUSA_SLICER, python, succeeds, trial};
 
 /// Prints vertices, triangles and whether the mesh is closed, for each object of a 3MF.
 const LIB3MF: &str = r"
@@ -32,6 +29,21 @@ while meshes.MoveNext():
     mesh = meshes.GetCurrentMeshObject()
     print(mesh.GetVertexCount(), mesh.GetTriangleCount(), mesh.IsManifoldAndOriented())
 ";
+
+pub fn trials() -> Vec<Trial> {
+    vec![
+        trial(
+            "filament::prusa_slicer_prints_every_layer_of_the_plan",
+            &[PRUSA_SLICER],
+            prusa_slicer_prints_every_layer_of_the_plan,
+        ),
+        trial(
+            "filament::lib3mf_opens_every_file",
+            &[Need::Python("lib3mf")],
+            lib3mf_opens_every_file,
+        ),
+    ]
+}
 
 /// Five models, each of which has other layers. All end in something that is wide enough for a thread: of a tip, `prusa-slicer` leaves
 /// out what is thinner.
@@ -94,18 +106,13 @@ fn slice(path: &Path, triangles: &solids::Triangles, options: &Options) -> Resul
 /// The height of each layer in the G-code that `prusa-slicer` makes of a file, in thousandths of a millimetre.
 fn heights_in_gcode(path: &Path, nozzle_mm: f64, first_layer_mm: f64) -> Result<Vec<i64>, Failed> {
     let gcode = path.with_extension("gcode");
-    let output = Command::new("prusa-slicer")
+    let mut command = Command::new("prusa-slicer");
+    command
         .args(["--gcode-comments", "--layer-height", "0.15"])
         .args(["--nozzle-diameter", &nozzle_mm.to_string()])
         .args(["--first-layer-height", &first_layer_mm.to_string()])
-        .args(["--brim-width", "2", "-g", "-o"])
-        .arg(&gcode)
-        .arg(path)
-        .output()?;
-    if !output.status.success() {
-        let said = [output.stdout, output.stderr].concat();
-        return Err(String::from_utf8_lossy(&said).into_owned().into());
-    }
+        .args(["--brim-width", "2", "-g", "-o"]);
+    succeeds(command.arg(&gcode).arg(path))?;
     let heights = fs::read_to_string(&gcode)?;
     let heights = heights.lines().filter_map(|line| line.strip_prefix(";Z:"));
     let heights = heights.map(|z_mm| z_mm.parse::<f64>().map(|z_mm| (z_mm * 1e3).round() as i64));
@@ -143,10 +150,6 @@ fn prusa_slicer_prints_every_layer_of_the_plan() -> Result<(), Failed> {
     Ok(())
 }
 
-fn python() -> String {
-    std::env::var(PYTHON_VARIABLE).unwrap_or_else(|_| "python3".to_owned())
-}
-
 fn lib3mf_opens_every_file() -> Result<(), Failed> {
     for (name, triangles, options) in models() {
         for format in Format::FILAMENT {
@@ -175,50 +178,4 @@ fn lib3mf_opens_every_file() -> Result<(), Failed> {
         }
     }
     Ok(())
-}
-
-fn has_prusa_slicer() -> bool {
-    Command::new("prusa-slicer").arg("--help").output().is_ok()
-}
-
-fn has_lib3mf() -> bool {
-    let asked = Command::new(python())
-        .args(["-c", "import lib3mf"])
-        .output();
-    asked.is_ok_and(|output| output.status.success())
-}
-
-/// A test's title, whether what it needs is there, what to say if not, and the test.
-type Entry = (
-    &'static str,
-    fn() -> bool,
-    &'static str,
-    fn() -> Result<(), Failed>,
-);
-
-fn main() {
-    let arguments = Arguments::from_args();
-    let tests: [Entry; 2] = [
-        (
-            "prusa_slicer_prints_every_layer_of_the_plan",
-            has_prusa_slicer,
-            "no prusa-slicer on PATH",
-            prusa_slicer_prints_every_layer_of_the_plan,
-        ),
-        (
-            "lib3mf_opens_every_file",
-            has_lib3mf,
-            "no Python with lib3mf; name one in CUSP_PEERS_PYTHON",
-            lib3mf_opens_every_file,
-        ),
-    ];
-    let trials = tests.map(|(title, is_there, absent, test)| {
-        Trial::ignorable_test(title, move || {
-            if !is_there() {
-                return Ok(Completion::ignored_with(absent));
-            }
-            test().map(|()| Completion::Completed)
-        })
-    });
-    libtest_mimic::run(&arguments, trials.into()).exit();
 }

@@ -1,9 +1,5 @@
 //! Print files made byte by byte from the descriptions of their formats, and what the readers find in them.
 
-#![cfg(not(target_arch = "wasm32"))]
-
-#[path = "../common/mod.rs"]
-mod common;
 mod ctb;
 mod damage;
 mod goo;

@@ -7,7 +7,7 @@ use cusp_slicer::ldi::gpu::{self, Gpu, Method};
 use cusp_slicer::warning::Warning;
 use libtest_mimic::Failed;
 
-use crate::Test;
+use super::Test;
 use crate::common::{binary_stl, quiet, solids};
 
 /// Adds the tests of this file.

@@ -1,0 +1,43 @@
+//! Every test that needs nothing but the crate and the command line, in one program, so that the crate is linked once. A suite is a module.
+
+mod archive;
+mod calibration;
+mod cli;
+mod common;
+mod contours;
+mod deviation;
+mod docs;
+#[cfg(target_os = "linux")]
+mod endurance;
+mod filament;
+mod fuzz;
+mod grid;
+mod growth;
+mod inspect;
+mod job;
+mod layout;
+mod ldi;
+mod mask;
+mod memory;
+mod mesh;
+mod orientation;
+mod plan;
+mod plate;
+mod prepare;
+mod price;
+mod printability;
+mod printer;
+mod profile;
+mod quantity;
+mod read;
+mod saliency;
+mod simulate;
+mod thread;
+mod verify;
+mod web;
+
+use peak_alloc::PeakAlloc;
+
+/// Counts what is allocated, for `memory.rs`.
+#[global_allocator]
+static ALLOCATOR: PeakAlloc = PeakAlloc;
