@@ -9,7 +9,6 @@ pub mod png;
 mod preview;
 mod pw0;
 mod raster;
-#[cfg(feature = "read")]
 pub mod read;
 pub mod runs;
 mod survey;

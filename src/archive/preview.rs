@@ -145,7 +145,6 @@ impl Look {
     }
 
     /// A picture as it is: the brightness of each pixel, row by row from the top, and the sides of a pixel in any unit.
-    #[cfg(feature = "read")]
     pub(crate) fn from_picture(
         [width, height]: [u32; 2],
         side: [f64; 2],

@@ -43,10 +43,7 @@ use sweep::Sweep;
 /// What a shop does with a print.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(
-    all(target_arch = "wasm32", not(feature = "read")),
-    derive(tsify::Tsify)
-)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Verdict {
     /// Prints it.
@@ -60,10 +57,7 @@ pub enum Verdict {
 /// How many findings of a kind there are. The largest are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(
-    all(target_arch = "wasm32", not(feature = "read")),
-    derive(tsify::Tsify)
-)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Count {
     /// The kind.
     pub code: Code,
@@ -74,10 +68,7 @@ pub struct Count {
 /// What was found.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(
-    all(target_arch = "wasm32", not(feature = "read")),
-    derive(tsify::Tsify)
-)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Printability {
     /// The largest severity of all findings.
     pub verdict: Verdict,

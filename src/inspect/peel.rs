@@ -10,10 +10,7 @@ use super::limits::{Limits, Severity};
 /// Lit areas of the layers. The force that peels a layer off the film grows with its area.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(
-    all(target_arch = "wasm32", not(feature = "read")),
-    derive(tsify::Tsify)
-)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Peel {
     /// The area of each layer in mm².
     pub area_mm2: Vec<f64>,

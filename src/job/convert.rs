@@ -8,7 +8,7 @@ use serde_json::json;
 use super::resolve::find_printer;
 use super::{OptionsError, SCHEMA};
 use crate::archive::read::{
-    About, Finding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
+    About, FileFinding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
 };
 use crate::archive::{self, ArchiveError, Layer, Look, Manifest, PrintJob, Screen};
 use crate::format::{Format, FormatThicknesses};
@@ -52,7 +52,7 @@ pub struct Conversion<'a> {
 pub enum ConvertError {
     /// The file is not whole, or its layers are in no order that can be printed.
     #[error("it cannot be converted: {0}")]
-    Unsound(Finding),
+    Unsound(FileFinding),
     /// The printer is unknown, or badly described.
     #[error(transparent)]
     Options(#[from] OptionsError),
@@ -175,10 +175,10 @@ impl<'a> Conversion<'a> {
         let unsound = inspection.warnings.iter().find(|finding| {
             matches!(
                 finding,
-                Finding::NoLayers
-                    | Finding::FirstLayerBelowPlate { .. }
-                    | Finding::HeightsNotAscending { .. }
-                    | Finding::BadLayers { .. }
+                FileFinding::NoLayers
+                    | FileFinding::FirstLayerBelowPlate { .. }
+                    | FileFinding::HeightsNotAscending { .. }
+                    | FileFinding::BadLayers { .. }
             )
         });
         if let Some(finding) = unsound {

@@ -2,7 +2,6 @@
 
 mod calibration;
 mod compare;
-#[cfg(feature = "read")]
 mod convert;
 mod error;
 mod facet_shapes;
@@ -32,7 +31,6 @@ mod verify;
 mod work;
 
 pub use calibration::{Calibration, Section};
-#[cfg(feature = "read")]
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
 pub use groups::LayerGroups;

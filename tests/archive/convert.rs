@@ -3,7 +3,7 @@
 use std::io::{Cursor, Write as _};
 use std::sync::Arc;
 
-use cusp_slicer::archive::read::{Finding, Preview, PrintFile, inspect};
+use cusp_slicer::archive::read::{FileFinding, Preview, PrintFile, inspect};
 use cusp_slicer::format::{Format, FormatThicknesses};
 use cusp_slicer::job::{Backend, Conversion, ConvertError, Loss, Options, Planner, Target};
 use cusp_slicer::printer::{PRINTERS, Printer, PrinterChoice, format_of, named};
@@ -88,7 +88,8 @@ fn every_format_becomes_every_other() {
                     assert!(found == expected, "{name}, layer {index}");
                 }
                 let found = inspect(&file, &mut silent).unwrap().warnings;
-                let is_known = |finding: &Finding| matches!(finding, Finding::BlackLayers { .. });
+                let is_known =
+                    |finding: &FileFinding| matches!(finding, FileFinding::BlackLayers { .. });
                 assert!(found.iter().all(is_known), "{name}: {found:?}");
                 // A printer of one's own is not known by the name in its files.
                 let says = PrintFile::open(&**bytes)

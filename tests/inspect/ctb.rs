@@ -1,6 +1,6 @@
 //! CTB, from its description.
 
-use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError, UnreadKind};
+use cusp_slicer::archive::read::{FileFinding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;
 
 use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
@@ -204,7 +204,7 @@ fn a_black_layer_and_one_without_data_are_told_apart() {
         .map(|layer| layer.lit_pixels)
         .collect();
     assert_eq!(lit, [Some(0), None, Some(1)]);
-    let black = Finding::BlackLayers {
+    let black = FileFinding::BlackLayers {
         layers: 1,
         first_layer: 1,
         from_mm: 0.0,
@@ -213,7 +213,7 @@ fn a_black_layer_and_one_without_data_are_told_apart() {
         pixels: 0,
         expected: 15,
     };
-    let bad = Finding::BadLayers {
+    let bad = FileFinding::BadLayers {
         layers: 1,
         first_layer: 2,
         fault,

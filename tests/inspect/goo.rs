@@ -1,6 +1,6 @@
 //! GOO, from its description.
 
-use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError};
+use cusp_slicer::archive::read::{FileFinding, LayerFault, PrintFileError};
 use cusp_slicer::format::Format;
 
 use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
@@ -174,7 +174,7 @@ fn black_layers_and_single_pixels_are_told_apart() {
         .map(|layer| layer.lit_pixels)
         .collect();
     assert_eq!(lit, [Some(0), Some(0), Some(1)]);
-    let black = Finding::BlackLayers {
+    let black = FileFinding::BlackLayers {
         layers: 2,
         first_layer: 1,
         from_mm: 0.0,
@@ -222,10 +222,10 @@ fn layers_are_closed_by_their_marks_and_the_file_by_its_end() {
     let mut file = goo(&[(0.05, all(3)), (0.1, all(3))]);
     let end = file.len() - 1;
     file[end] = 1;
-    assert_eq!(warnings(&file), [Finding::MissingEnd]);
+    assert_eq!(warnings(&file), [FileFinding::MissingEnd]);
     file[end] = 0;
     file[195_477 + 64] = 0;
-    let marks = Finding::MissingMarks {
+    let marks = FileFinding::MissingMarks {
         layers: 1,
         first_layer: 1,
     };
@@ -235,8 +235,8 @@ fn layers_are_closed_by_their_marks_and_the_file_by_its_end() {
 #[test]
 fn heights_that_do_not_rise_are_found() {
     let file = goo(&[(0.0, all(3)), (0.1, all(3)), (0.1, all(3)), (0.05, all(3))]);
-    let below = Finding::FirstLayerBelowPlate { z_mm: 0.0 };
-    let still = Finding::HeightsNotAscending {
+    let below = FileFinding::FirstLayerBelowPlate { z_mm: 0.0 };
+    let still = FileFinding::HeightsNotAscending {
         layers: 2,
         first_layer: 3,
         z_mm: 0.1,
@@ -250,7 +250,7 @@ fn thicknesses_that_do_not_count_are_found() {
     let mut file = blank(true, &[(0.05, all(3)), (0.1, all(3)), (0.2, all(3))]);
     assert_eq!(warnings(&file.bytes), []);
     file.u8(195_445, 0);
-    let ignored = Finding::IgnoredHeights {
+    let ignored = FileFinding::IgnoredHeights {
         thinnest_mm: 0.05,
         thickest_mm: 0.1,
         layer_mm: Some(0.05),

@@ -11,7 +11,7 @@ use std::io::{Cursor, Write as _};
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::read::{
-    Finding, Flips, Inspection, LayerFault, PrintFile, PrintFileError, inspect,
+    FileFinding, Flips, Inspection, LayerFault, PrintFile, PrintFileError, inspect,
 };
 use cusp_slicer::progress::{Cancelled, silent};
 use zip::ZipWriter;
@@ -89,7 +89,7 @@ fn inspected(bytes: &[u8]) -> Inspection {
     inspect(&open(bytes), &mut silent).unwrap()
 }
 
-fn warnings(bytes: &[u8]) -> Vec<Finding> {
+fn warnings(bytes: &[u8]) -> Vec<FileFinding> {
     inspected(bytes).warnings
 }
 
@@ -99,7 +99,7 @@ fn only_fault(bytes: &[u8]) -> (usize, LayerFault) {
     let faults: Vec<_> = warnings(bytes)
         .into_iter()
         .filter_map(|finding| match finding {
-            Finding::BadLayers {
+            FileFinding::BadLayers {
                 layers: 1,
                 first_layer,
                 fault,
@@ -164,7 +164,7 @@ fn what_is_no_print_file_is_named() {
 #[test]
 fn an_inspection_can_be_cancelled() {
     let file = goo::goo(&[]);
-    assert_eq!(warnings(&file), [Finding::NoLayers]);
+    assert_eq!(warnings(&file), [FileFinding::NoLayers]);
     let mut stop = |_: f64| ControlFlow::Break(());
     assert_eq!(inspect(&open(&file), &mut stop), Err(Cancelled));
 }
@@ -192,7 +192,7 @@ fn errors_and_findings_are_a_code_with_details() {
         "detail": { "needed_bytes": 12, "found_bytes": 7 },
     });
     assert_eq!(serde_json::to_value(error).unwrap(), expected);
-    let finding = Finding::BadLayers {
+    let finding = FileFinding::BadLayers {
         layers: 2,
         first_layer: 3,
         fault: LayerFault::TooFewPixels {

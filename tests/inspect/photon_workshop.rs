@@ -1,6 +1,6 @@
 //! Anycubic's binary file, from its description.
 
-use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError, UnreadKind};
+use cusp_slicer::archive::read::{FileFinding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;
 
 use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
@@ -184,12 +184,12 @@ fn black_layers_and_thicknesses_that_do_not_count_are_found() {
     let (mut file, tables) = blank(516, &[(0.05, vec![0x00, 15]), (0.1, last)]);
     file.u32(tables.header + 0x50, 0);
     let found = inspected(&file.bytes);
-    let ignored = Finding::IgnoredHeights {
+    let ignored = FileFinding::IgnoredHeights {
         thinnest_mm: 0.05,
         thickest_mm: 0.1,
         layer_mm: Some(0.05),
     };
-    let black = Finding::BlackLayers {
+    let black = FileFinding::BlackLayers {
         layers: 1,
         first_layer: 1,
         from_mm: 0.0,

@@ -1,6 +1,6 @@
 //! Zips: `NanoDLP` and Anycubic from their descriptions, and what is special about zips.
 
-use cusp_slicer::archive::read::{Finding, LayerFault, PrintFileError, UnreadKind};
+use cusp_slicer::archive::read::{FileFinding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;
 use png::{BitDepth, ColorType};
 use serde_json::{Value, json};
@@ -103,7 +103,7 @@ fn the_colours_of_nanodlp_are_pixels() {
         .map(|layer| (layer.lit_pixels, layer.grey_pixels))
         .collect();
     assert_eq!(lit, [(Some(4), Some(3)), (Some(0), Some(0))]);
-    let black = Finding::BlackLayers {
+    let black = FileFinding::BlackLayers {
         layers: 1,
         first_layer: 2,
         from_mm: 0.1,
@@ -278,7 +278,7 @@ pub fn anycubic() -> Vec<u8> {
 #[test]
 fn a_zip_of_anycubic_says_everything_of_each_layer() {
     let file = anycubic();
-    let black = Finding::BlackLayers {
+    let black = FileFinding::BlackLayers {
         layers: 1,
         first_layer: 2,
         from_mm: 0.05,

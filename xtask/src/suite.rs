@@ -146,13 +146,12 @@ fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<Tally> {
     Tally::of_vitest(status, &fs::read_to_string(&file).unwrap_or_default())
 }
 
-/// A workspace of its own, so its features and profiles differ, and what it builds is kept apart.
+/// A workspace of its own: what it needs, nothing else compiles or locks. Dependencies of both are compiled once.
 fn interop(project: &Project, scratch: &Path) -> Result<Tally> {
     let mut tally = cargo_test(
         process::cargo(project)
             .args(["test", "--no-fail-fast", "--manifest-path"])
-            .arg(project.root.join(INTEROP).join("Cargo.toml"))
-            .env("CARGO_TARGET_DIR", project.target.join("interop")),
+            .arg(project.root.join(INTEROP).join("Cargo.toml")),
         scratch,
     )?;
     let folder = Path::new(INTEROP).join("cluster");

@@ -11,7 +11,7 @@ use super::{About, Layer, LayerFault};
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]
-pub enum Finding {
+pub enum FileFinding {
     /// There is no layer.
     NoLayers,
     /// The first layer ends at or below the plate.
@@ -109,14 +109,14 @@ impl<T> Tally<T> {
 const SAME_MM: f64 = 0.0015;
 
 /// What is wrong with heights and exposures.
-pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<Finding> {
+pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
     let mut findings = Vec::new();
     let Some(first) = layers.first() else {
-        return vec![Finding::NoLayers];
+        return vec![FileFinding::NoLayers];
     };
     // What is no number is not above the plate either.
     if first.z_mm.is_nan() || first.z_mm <= 0.0 {
-        findings.push(Finding::FirstLayerBelowPlate { z_mm: first.z_mm });
+        findings.push(FileFinding::FirstLayerBelowPlate { z_mm: first.z_mm });
     }
     let mut fallen = Tally::default();
     for (place, pair) in layers.windows(2).enumerate() {
@@ -126,7 +126,7 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<Finding> {
         }
     }
     if let Some((first_layer, (z_mm, below_mm))) = fallen.first {
-        findings.push(Finding::HeightsNotAscending {
+        findings.push(FileFinding::HeightsNotAscending {
             layers: fallen.layers,
             first_layer,
             z_mm,
@@ -137,7 +137,7 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<Finding> {
     let thinnest_mm = thicknesses().fold(f64::INFINITY, f64::min);
     let thickest_mm = thicknesses().fold(f64::NEG_INFINITY, f64::max);
     if about.uses_layer_values == Some(false) && thickest_mm - thinnest_mm > SAME_MM {
-        findings.push(Finding::IgnoredHeights {
+        findings.push(FileFinding::IgnoredHeights {
             thinnest_mm,
             thickest_mm,
             layer_mm: about.layer_mm,
@@ -150,7 +150,7 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<Finding> {
         }
     }
     if let Some((first_layer, ())) = unexposed.first {
-        findings.push(Finding::NoExposure {
+        findings.push(FileFinding::NoExposure {
             layers: unexposed.layers,
             first_layer,
         });
@@ -178,10 +178,10 @@ impl Faults {
         }
     }
 
-    pub fn findings(self) -> impl Iterator<Item = Finding> {
+    pub fn findings(self) -> impl Iterator<Item = FileFinding> {
         self.0.into_iter().filter_map(|tally| {
             let (first_layer, fault) = tally.first?;
-            Some(Finding::BadLayers {
+            Some(FileFinding::BadLayers {
                 layers: tally.layers,
                 first_layer,
                 fault,
@@ -190,7 +190,7 @@ impl Faults {
     }
 }
 
-impl std::fmt::Display for Finding {
+impl std::fmt::Display for FileFinding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NoLayers => f.write_str("the file has no layers; slice the model again"),

@@ -4,7 +4,9 @@ use super::about::with_thicknesses;
 use super::bytes::{Fields, Order};
 use super::preview::Picture;
 use super::runs::{Coverage, Reader};
-use super::{About, Coding, Contents, Finding, Format, Layer, LayerFault, Places, PrintFileError};
+use super::{
+    About, Coding, Contents, FileFinding, Format, Layer, LayerFault, Places, PrintFileError,
+};
 
 /// What stands at byte 4, and again at the end after three zeros.
 const MAGIC: [u8; 8] = [7, 0, 0, 0, 0x44, 0x4C, 0x50, 0];
@@ -122,7 +124,7 @@ fn volume_ml(volume: Option<f64>, weight_g: Option<f64>) -> Option<f64> {
 type Walked = (Vec<Layer>, Vec<std::ops::Range<u64>>);
 
 /// Walks from layer to layer by the lengths of their data.
-fn layers(fields: Fields<'_>, findings: &mut Vec<Finding>) -> Result<Walked, PrintFileError> {
+fn layers(fields: Fields<'_>, findings: &mut Vec<FileFinding>) -> Result<Walked, PrintFileError> {
     let count = super::checked_layers(fields.u32(195_310)?, fields.len() - HEADER, LAYER)?;
     let (mut layers, mut places) = (Vec::with_capacity(count), Vec::with_capacity(count));
     let (mut at, mut unmarked) = (HEADER, super::Tally::default());
@@ -139,14 +141,14 @@ fn layers(fields: Fields<'_>, findings: &mut Vec<Finding>) -> Result<Walked, Pri
         at = end + 2;
     }
     if let Some((first_layer, ())) = unmarked.first {
-        findings.push(Finding::MissingMarks {
+        findings.push(FileFinding::MissingMarks {
             layers: unmarked.layers,
             first_layer,
         });
     }
     let end = [&[0; 3][..], &MAGIC].concat();
     if fields.bytes.get(at as usize..at as usize + end.len()) != Some(&end) {
-        findings.push(Finding::MissingEnd);
+        findings.push(FileFinding::MissingEnd);
     }
     Ok((layers, places))
 }

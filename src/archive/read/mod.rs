@@ -14,7 +14,7 @@
 //! ```
 //!
 //! The format is told by content. Bytes are held once, and layers are decoded when they are asked for. Whatever a file says
-//! is checked before it is believed: bad input is an error or a [`Finding`], and no file makes a reader hold much more
+//! is checked before it is believed: bad input is an error or a [`FileFinding`], and no file makes a reader hold much more
 //! than it justifies.
 
 mod about;
@@ -46,7 +46,7 @@ use std::ops::Range;
 pub use about::{About, Layer, Preview};
 pub use bytes::Bytes;
 pub use error::{LayerFault, PrintFileError, UnreadKind};
-pub use finding::Finding;
+pub use finding::FileFinding;
 pub use mask::{Flips, Mask, changes_up_to, combine};
 pub use report::{Inspection, LayerInspection, PreviewSize, inspect, inspect_masks};
 pub use runs::Sink;
@@ -79,7 +79,7 @@ struct Contents {
     /// How the model stands, if the file says so. Its bounding box is then at the centre of the masks.
     pose: Option<Pose>,
     /// What is wrong besides layers and heights.
-    findings: Vec<Finding>,
+    findings: Vec<FileFinding>,
 }
 
 /// How layers are encoded.

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::finding::{Faults, Tally, of_settings};
 use super::mask::Collector;
-use super::{About, Finding, Layer, LayerFault, Mask, PrintFile};
+use super::{About, FileFinding, Layer, LayerFault, Mask, PrintFile};
 use crate::parallel;
 use crate::progress::{Cancelled, Progress, report};
 
@@ -29,7 +29,7 @@ pub struct Inspection {
     /// Sizes of the previews that could be decoded.
     pub previews: Vec<PreviewSize>,
     /// What is wrong with the file.
-    pub warnings: Vec<Finding>,
+    pub warnings: Vec<FileFinding>,
     /// Each layer, from the plate upward.
     pub layer_values: Vec<LayerInspection>,
 }
@@ -131,7 +131,7 @@ fn look_through(
         [0.0, 1.0],
     )?;
     if let Some((first_layer, from_mm)) = black.first {
-        warnings.push(Finding::BlackLayers {
+        warnings.push(FileFinding::BlackLayers {
             layers: black.layers,
             first_layer,
             from_mm,
@@ -146,7 +146,7 @@ fn look_through(
                 width: preview.width,
                 height: preview.height,
             }),
-            None => warnings.push(Finding::BadPreview { preview: place + 1 }),
+            None => warnings.push(FileFinding::BadPreview { preview: place + 1 }),
         }
     }
     Ok(Inspection {

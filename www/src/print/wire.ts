@@ -1,7 +1,7 @@
 /** What crosses between the page and the worker that reads print files. The types of the core are those of its package. */
 import type { Inspection } from "../../pkg/cusp_reader.js";
 
-export type { Finding, Inspection, LayerInspection, PrintFileError } from "../../pkg/cusp_reader.js";
+export type { FileFinding, Inspection, LayerInspection, PrintFileError } from "../../pkg/cusp_reader.js";
 
 /** A picture for the printer's screen. */
 export interface Picture {

@@ -1,5 +1,5 @@
 /** The texts of the view of print files: a catalogue for each language, fetched with the view. */
-import type { Finding, LayerFault, PrintFileError } from "../../../pkg/cusp_reader.js";
+import type { FileFinding, LayerFault, PrintFileError } from "../../../pkg/cusp_reader.js";
 import type { Format } from "../../texts/format.js";
 import type { Language, LanguageCode } from "../../texts/index.js";
 import type { ReadError } from "../open-print.js";
@@ -45,7 +45,7 @@ type DetailOf<E> = E extends { detail: infer Detail } ? Detail : null;
 type Sentences<E extends { code: string }> = { readonly [Each in E as Each["code"]]: (detail: DetailOf<Each>, fault: string) => string };
 
 export type FaultSentences = Sentences<LayerFault>;
-export type FindingSentences = Sentences<Finding>;
+export type FindingSentences = Sentences<FileFinding>;
 export type ErrorSentences = Sentences<PrintFileError | ReadError>;
 
 interface Catalogue {
@@ -60,7 +60,7 @@ const CATALOGUES: Readonly<Record<LanguageCode, Catalogue>> = { de, en, es, fr, 
 /** The texts in a language. */
 export interface PrintTexts {
   words: PrintWords;
-  finding(finding: Finding): string;
+  finding(finding: FileFinding): string;
   error(error: PrintFileError | ReadError): string;
 }
 
