@@ -1,4 +1,4 @@
-//! The schemas of what `--json` prints, recorded in docs/schemas. `examples/cluster/test_schemas.py` holds real output to them.
+//! The schemas of what `--json` prints, recorded in docs/schemas. `tests/interop/cluster/test_schemas.py` holds real output to them.
 
 use std::path::Path;
 use std::sync::Arc;

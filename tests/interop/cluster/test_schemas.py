@@ -1,6 +1,6 @@
 """Holds what every command prints as JSON to the schemas in docs/schemas, by a validator that shares nothing with their writer.
 
-    CUSP=target/release/cusp python -m unittest -v examples/cluster/test_schemas.py
+    CUSP=PATH/OF/cusp python -m unittest -v test_schemas
 """
 
 from __future__ import annotations
@@ -15,9 +15,9 @@ from typing import Any
 
 import fastjsonschema
 
-from example import CUSP, PATIENCE, write_frustum
+from common import CUSP, PATIENCE, write_frustum
 
-SCHEMAS = Path(__file__).parents[2] / "docs" / "schemas"
+SCHEMAS = Path(__file__).parents[3] / "docs" / "schemas"
 
 
 class Schemas(unittest.TestCase):
