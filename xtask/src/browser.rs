@@ -23,8 +23,7 @@ const MACOS_BROWSERS: [&str; 2] = [
     "/Applications/Google Chrome.app/Contents/MacOS/Google Chrome",
     "/Applications/Chromium.app/Contents/MacOS/Chromium",
 ];
-/// With the font that the goldens were recorded in.
-const PACKAGES: [&str; 3] = ["chromium", "chromium-driver", "fonts-dejavu-core"];
+const PACKAGES: [&str; 2] = ["chromium", "chromium-driver"];
 
 /// Quiet, self-contained, and with WebGPU on Chromium's own software adapter:
 /// the same picture on every machine, whatever GPU it has.
