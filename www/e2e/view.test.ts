@@ -12,7 +12,7 @@ const start = viewPages();
 /** Colours count as the same from this likeness on. */
 const SAME = 0.995;
 
-/** Waits until nothing is drawn any more. */
+/** Waits for more frames than a change is drawn in. */
 async function settled(page: Page): Promise<void> {
   for (let i = 0; i < 10; i++) await drawn(page);
 }
@@ -52,7 +52,7 @@ test("layers have the colours of the palette, each at its height, exact to one a
   await page.evaluate(
     async ([boundaries, top]) => {
       const { harness } = window;
-        await harness.set({
+      await harness.set({
         positions: harness.solids.box([0, 0, 0], [10, 10, top]),
         z_mm: boundaries,
         thickness_mm: boundaries.slice(1).map((z, i) => z - (boundaries[i] ?? 0)),
