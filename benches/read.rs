@@ -1,6 +1,6 @@
 //! How long a model of a million facets takes to read, as STL, OBJ and 3MF, and with it the mesh: `cargo xtask bench read [FILE …]`.
 //!
-//! With `--write FOLDER` it writes the three files instead, for other programs and for the browser (`npm run measure-core`).
+//! With `--write FOLDER` it writes the three files instead, for other programs and for the browser.
 
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the solids; here only one")]

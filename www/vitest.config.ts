@@ -16,7 +16,7 @@ const browsers = {
 export default defineConfig({
   test: {
     projects: [
-      { test: { name: "unit", include: ["src/**/*.test.ts", "package/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },
+      { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },
       { test: { ...browsers, name: "e2e", include: ["e2e/*.test.ts"] } },
       { test: { ...browsers, name: "engines", include: ["e2e/engines/*.test.ts"] } },
     ],

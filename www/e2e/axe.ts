@@ -2,12 +2,13 @@
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 
-/** Rules broken, with the elements that break them. */
-export async function broken(page: Page): Promise<string[]> {
+/** Rules broken, with the elements that break them. @param rules if not all */
+export async function broken(page: Page, rules?: readonly string[]): Promise<string[]> {
   // Evaluated, not added as a script: the page's policy allows no inline scripts.
   await page.evaluate(axe.source);
-  const { violations } = await page.evaluate(() =>
-    (window as unknown as { axe: { run(): Promise<axe.AxeResults> } }).axe.run(),
+  const { violations } = await page.evaluate(
+    (rules) => (window as unknown as { axe: { run(options: axe.RunOptions): Promise<axe.AxeResults> } }).axe.run({ resultTypes: ["violations"], ...(rules !== null && { runOnly: [...rules] }) }),
+    rules ?? null,
   );
   return violations.map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 120)).join(" | ")}`);
 }

@@ -87,16 +87,6 @@ export interface DroppedFile {
   bytes: Uint8Array;
 }
 
-/** The requests that match from now on, by their addresses. They fail while `isOffline` says so. */
-export async function requests(page: Page, address: RegExp, isOffline = (): boolean => false): Promise<string[]> {
-  const fetched: string[] = [];
-  await page.route(address, async (route) => {
-    fetched.push(route.request().url());
-    await (isOffline() ? route.abort() : route.continue());
-  });
-  return fetched;
-}
-
 /** Drops files on the page as a file manager would. Returns the page's clock at the drop, in ms. */
 export async function drop(page: Page, ...files: DroppedFile[]): Promise<number> {
   // Serves the bytes to the page: as base64 in a message, a large model would take seconds.

@@ -13,15 +13,12 @@ import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { cup } from "./solids.js";
-import { SOFTWARE_GL } from "./view-pages.js";
 
-const start = pages(SOFTWARE_GL);
+const start = pages();
 const mug = { name: "mug.stl", bytes: cup(10, 8, 1.5) };
-const DESKTOP = { viewport: { width: 1280, height: 800 } };
-const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
-async function opened(options: Parameters<typeof start>[1]): Promise<Page> {
-  const page = await start("?backend=cpu", options);
+async function opened(): Promise<Page> {
+  const page = await start("?backend=cpu");
   await drop(page, mug);
   await state(page, "done");
   await openPanel(page, "Check");
@@ -31,15 +28,19 @@ async function opened(options: Parameters<typeof start>[1]): Promise<Page> {
 
 const verdict = (page: Page): Promise<string | null> => page.locator("cusp-findings [data-verdict]").getAttribute("data-verdict");
 
-test("a cup is found, choosing it shows its first layer and marks it, and upside down it is none", async () => {
-  const page = await opened(DESKTOP);
+test("a cup is found, chosen by click or key it is shown and marked, and upside down it is none", async () => {
+  const page = await opened();
   expect(await verdict(page)).toBe("review");
   const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings ?? []);
   expect(finding?.code).toBe("cup");
   const found = page.getByRole("button", { name: /^A hollow of/ });
   expect(await found.count()).toBe(1);
-  await found.click();
+  await found.focus();
+  await page.keyboard.press("Enter");
   expect(await found.getAttribute("aria-pressed")).toBe("true");
+  await page.keyboard.press("Escape");
+  expect(await found.getAttribute("aria-pressed")).toBe("false");
+  await found.click();
   expect(await broken(page)).toEqual([]);
   await openPanel(page, "Mask");
   await maskOf(page, finding?.layers[0] ?? -1);
@@ -57,53 +58,8 @@ test("a cup is found, choosing it shows its first layer and marks it, and upside
   expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
 });
 
-test("by keyboard findings are gone through, chosen and let go, and the sheet stays", async () => {
-  const page = await opened(PHONE);
-  const found = page.getByRole("button", { name: /^A hollow of/ });
-  await found.focus();
-  await page.keyboard.press("Enter");
-  expect(await found.getAttribute("aria-pressed")).toBe("true");
-  await page.keyboard.press("Escape");
-  expect(await found.getAttribute("aria-pressed")).toBe("false");
-  expect(await page.locator(".sheet").count()).toBe(1);
-  expect(await broken(page)).toEqual([]);
-  await page.keyboard.press("Escape");
-  await expect.poll(() => page.locator(".sheet").count()).toBe(0);
-});
-
-test("the thickness of walls is shown by keyboard, and ends where other colours are asked for", async () => {
-  const page = await opened(DESKTOP);
-  const toggle = page.getByRole("switch", { name: "Show wall thickness" });
-  await toggle.focus();
-  await page.keyboard.press("Space");
-  const scale = page.locator("cusp-view .legend.walls");
-  await scale.waitFor();
-  expect((await scale.innerText()).replaceAll(/\s+/g, " ")).toBe("Wall thickness (mm) 0 1 2 3 ≥ 4 Thinner than 0.4 mm");
-  expect(await page.locator("cusp-findings .legend.walls").isVisible()).toBe(false);
-  expect(await page.locator("cusp-view").evaluate((view: CuspView) => Math.min(...(view.walls?.thickness_mm ?? [])))).toBeCloseTo(1.5, 3);
-  expect(await broken(page)).toEqual([]);
-  // It stays when another panel is looked at.
-  await openPanel(page, "Mask");
-  expect(await scale.isVisible()).toBe(true);
-  await page.getByRole("switch", { name: "As printed" }).click();
-  await scale.waitFor({ state: "detached" });
-  await openPanel(page, "Check");
-  expect(await toggle.isChecked()).toBe(false);
-});
-
-test("on a phone the scale of walls is in the sheet, and in the view once that is closed", async () => {
-  const page = await opened(PHONE);
-  await page.getByRole("switch", { name: "Show wall thickness" }).click();
-  await page.locator("cusp-findings .legend.walls").waitFor();
-  await page.locator("cusp-view .legend.walls").waitFor({ state: "attached" });
-  expect(await page.locator("cusp-view .legend.walls").isVisible()).toBe(false);
-  expect(await broken(page)).toEqual([]);
-  await page.getByRole("button", { name: "Close" }).click();
-  await expect.poll(() => page.locator("cusp-view .legend.walls").isVisible()).toBe(true);
-});
-
 test("with limits of a shop every plan is checked, without a panel, and the page is told", async () => {
-  const page = await start("?backend=cpu", DESKTOP);
+  const page = await start("?backend=cpu");
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     element.addEventListener("cusp-check", ({ detail }) => void (document.body.dataset["told"] = detail.verdict));
     element.limits = { severity: { cup: "reject" } };
@@ -120,7 +76,7 @@ test("with limits of a shop every plan is checked, without a panel, and the page
 const program = process.env["CUSP"];
 
 test.skipIf(program === undefined)("the page finds what the command line does", async () => {
-  const page = await opened(DESKTOP);
+  const page = await opened();
   const check = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check);
   const folder = await mkdtemp(join(tmpdir(), "cusp-findings-"));
   try {

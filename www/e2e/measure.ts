@@ -1,13 +1,15 @@
 /**
- * Measures how long the page takes from the drop of a model: `npm run measure -- FILE.stl|FACETS [HEIGHT_MM [RAYS [BACKEND]]]`. In place
- * of a file, a ball of about so many facets.
+ * Measures how long the page takes from the drop of a model, and its memory: `npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]]`. The
+ * model is a file, `example`, which is the page's example with 111,600 facets, or a number: a ball of about so many facets.
  *
- * Each of five rounds, or as many as `--rounds` says, has fresh pages, so that nothing is kept from the round before; the median counts.
- * On one page the model is only looked at, on the other the print file is downloaded as well, as soon as its plan is there. Somebody takes a
- * while to find a file: the drop is `--after` seconds after the page is there, 2 if it does not say.
+ * Each of five rounds, or as many as `--rounds` says, has a browser of its own, so that nothing is kept from the round before; the median
+ * counts. On one page the model is only looked at, on the other the print file is downloaded as well, as soon as its plan is there. Somebody
+ * takes a while to find a file: the drop is `--after` seconds after the page is there, 2 if it does not say.
  *
  * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
  * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
+ *
+ * `--directions` measures the search for an orientation instead, `--cancel` how soon calls that are aborted end.
  */
 import { readFile, readdir } from "node:fs/promises";
 import { basename, join, resolve } from "node:path";
@@ -15,13 +17,15 @@ import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
 import { gzipSync } from "node:zlib";
 import type { Browser } from "playwright-core";
+import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { drop, launch, layers, open, SOFTWARE_GL, SOFTWARE_GPU, state, USUAL, visit, type DroppedFile } from "./browser.js";
 import { beforeView, whole } from "./loaded.js";
-import { serve } from "./serve.js";
-import { sphere } from "./solids.js";
+import { cancels, directions } from "./measure-calls.js";
+import { serve, type Served } from "./serve.js";
+import { finer, sphere } from "./solids.js";
 import { resident } from "./usage.js";
 
-const USAGE = "usage: npm run measure -- FILE.stl|FACETS [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS]";
+const USAGE = "usage: npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS] [--directions | --cancel]";
 /** The longest run that is waited for, on a machine with other work. */
 const PATIENCE_MS = 120_000;
 
@@ -44,79 +48,80 @@ interface Round {
   timings: string;
 }
 
+/** The figures of a round, by their names. */
+const FIGURES: readonly (readonly [name: string, of: (round: Round) => number | undefined])[] = [
+  ["drop to plan, ms", (it) => it.plan_ms],
+  ["drop to view, ms", (it) => it.view_ms],
+  ["drop to print file, ms", (it) => it.zip_ms],
+  ["memory of the page, MB", (it) => it.megabytes],
+  ["layers", (it) => it.layers],
+];
+
 export async function main(args: string[]): Promise<void> {
-  const text = { type: "string" } as const;
-  const options = { against: text, rounds: { ...text, default: "5" }, after: { ...text, default: "2" } };
+  const [text, flag] = [{ type: "string" }, { type: "boolean" }] as const;
+  const options = { against: text, rounds: { ...text, default: "5" }, after: { ...text, default: "2" }, directions: flag, cancel: flag };
   const { positionals, values } = parseArgs({ args, allowPositionals: true, options });
-  const [file, height = "60", rays = "2048", backend = "auto"] = positionals;
-  if (file === undefined) throw new Error(USAGE);
-  const model = Number(file) > 0 ? ball(Number(file)) : { name: basename(file), bytes: await readFile(file) };
-  const query = `?backend=${backend}&height=${height}&rays=${rays}`;
-  const measured = { file: model, query, rounds: Number(values.rounds), after_ms: 1000 * Number(values.after) };
-  console.log(`${model.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${measured.rounds} rounds`);
-  await (values.against === undefined ? alone(measured) : against(resolve(values.against), measured));
+  const [model, height = "60", rays = "2048", backend = "auto"] = positionals;
+  if (model === undefined) throw new Error(USAGE);
+  const file = await fileOf(model);
+  const rounds = Number(values.rounds);
+  console.log(`${file.name}, ${height} mm high, ${rays} rays, backend ${backend}, ${rounds} rounds`);
+  if (values.directions) return directions(file.bytes, Number(height), rounds);
+  if (values.cancel) return cancels(file.bytes, Number(height), rounds);
+  const folders = [fileURLToPath(new URL("../dist", import.meta.url))];
+  if (values.against !== undefined) folders.unshift(resolve(values.against));
+  await pages(folders, { file, query: `?backend=${backend}&height=${height}&rays=${rays}`, rounds, after_ms: 1000 * Number(values.after) });
 }
 
-/** A ball of about so many facets. */
-function ball(facets: number): DroppedFile {
-  const { bytes } = sphere(20, 2 * Math.round((1 + Math.sqrt(1 + facets)) / 2));
+async function fileOf(model: string): Promise<DroppedFile> {
+  if (model === "example") return { name: model, bytes: binaryStl(finer(exampleTriangles())) };
+  if (!(Number(model) > 0)) return { name: basename(model), bytes: await readFile(model) };
+  const { bytes } = sphere(20, 2 * Math.round((1 + Math.sqrt(1 + Number(model))) / 2));
   return { name: `ball of ${(bytes.length - 84) / 50} facets`, bytes };
 }
 
-async function alone(measured: Measured): Promise<void> {
-  const served = await serve();
-  const browser = await launch(SOFTWARE_GL);
+/** Measures the built page in each folder, round by round: one, or another build and ours. */
+async function pages(folders: readonly string[], measured: Measured): Promise<void> {
+  const served: Served[] = [];
   try {
-    const rounds: Round[] = [];
-    for (let i = 0; i < measured.rounds; i++) rounds.push(await round(browser, served.address, measured));
-    const first = rounds[0];
-    console.log(`layers         ${first?.layers}`);
-    console.log(`drop to plan   ${spread(rounds.map(({ plan_ms }) => plan_ms))}`);
-    console.log(`drop to view   ${spread(rounds.map(({ view_ms }) => view_ms))}`);
-    console.log(`drop to zip    ${spread(rounds.map(({ zip_ms }) => zip_ms))} (download pressed as soon as the plan is there)`);
-    console.log(`of the first:  ${first?.timings}`);
+    for (const folder of folders) served.push(await serve(folder));
+    const builds = served.map(({ address }) => ({ address, rounds: [] as Round[] }));
+    for (let i = 0; i <= measured.rounds; i++) {
+      for (const { address, rounds } of i % 2 === 0 ? builds : builds.toReversed()) {
+        const done = await apart(address, measured);
+        // The first round of each warms the system's cache of files.
+        if (i > 0) rounds.push(done);
+        console.error(`round ${i} of ${measured.rounds}, ${address}: plan ${Math.round(done.plan_ms)} ms, view ${Math.round(done.view_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
+      }
+    }
+    const [before, now] = builds;
+    if (before !== undefined && now !== undefined) return await compare(folders, before, now, measured);
+    const { rounds = [] } = before ?? {};
+    for (const [name, of] of FIGURES) console.log(`${name.padEnd(24)} ${spread(rounds.map(of))}`);
+    console.log(`of the first:  ${rounds[0]?.timings}`);
   } finally {
-    await browser.close();
-    await served.close();
+    await Promise.all(served.map((it) => it.close()));
   }
 }
 
-async function against(folder: string, measured: Measured): Promise<void> {
-  const { rounds: count, query, file } = measured;
-  const folders = [folder, fileURLToPath(new URL("../dist", import.meta.url))] as const;
-  const [theirs, ours] = [await serve(folders[0]), await serve(folders[1])];
-  try {
-    const [before, now]: [Round[], Round[]] = [[], []];
-    for (let i = 0; i <= count; i++) {
-      const order = [[theirs, before], [ours, now]] as const;
-      for (const [served, rounds] of i % 2 === 0 ? order : order.toReversed()) {
-        const done = await apart(served.address, measured);
-        // The first round of each warms the system's cache of files.
-        if (i > 0) rounds.push(done);
-        console.error(`round ${i} of ${count}, ${served === ours ? "now" : "before"}: plan ${Math.round(done.plan_ms)} ms, view ${Math.round(done.view_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
-      }
-    }
-    const ofRounds = (name: string, of: (round: Round) => number | undefined): string => {
-      const [old, recent] = [before.map(of), now.map(of)];
-      return row(name, median(old), median(recent), median(old.map((value, i) => ratio(value, recent[i]))));
-    };
-    console.log(`${folders[0]} before, ${folders[1]} now\n`);
-    console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
-    console.log(ofRounds("drop to plan, ms", (it) => it.plan_ms));
-    console.log(ofRounds("drop to view, ms", (it) => it.view_ms));
-    console.log(ofRounds("drop to print file, ms", (it) => it.zip_ms));
-    console.log(ofRounds("memory of the page, MB", (it) => it.megabytes));
-    console.log(ofRounds("layers", (it) => it.layers));
-    const [oldModules, modules] = [await wasmSizes(folders[0]), await wasmSizes(folders[1])];
-    for (const name of new Set([...modules.keys(), ...oldModules.keys()])) {
-      console.log(pair(`\`${name}\`, gzipped, KB`, oldModules.get(name), modules.get(name)));
-    }
-    const [oldLoaded, loaded] = [await loads(theirs.address + query, file), await loads(ours.address + query, file)];
-    console.log(pair("loaded before the 3-D view, beside the wasm, gzipped, KB", oldLoaded, loaded));
-  } finally {
-    await theirs.close();
-    await ours.close();
+interface Build {
+  address: string;
+  rounds: readonly Round[];
+}
+
+/** Prints a table of what two builds took. */
+async function compare(folders: readonly string[], before: Build, now: Build, { query, file }: Measured): Promise<void> {
+  console.log(`${folders[0]} before, ${folders[1]} now\n`);
+  console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
+  for (const [name, of] of FIGURES) {
+    const [old, recent] = [before.rounds.map(of), now.rounds.map(of)];
+    console.log(row(name, median(old), median(recent), median(old.map((value, i) => ratio(value, recent[i])))));
   }
+  const [oldModules, modules] = [await wasmSizes(folders[0] ?? ""), await wasmSizes(folders[1] ?? "")];
+  for (const name of new Set([...modules.keys(), ...oldModules.keys()])) {
+    console.log(pair(`\`${name}\`, gzipped, KB`, oldModules.get(name), modules.get(name)));
+  }
+  console.log(pair("loaded before the 3-D view, beside the wasm, gzipped, KB", await loads(before.address + query, file), await loads(now.address + query, file)));
 }
 
 /** A round in a browser of its own, so that its memory is that of one page. */
@@ -237,10 +242,9 @@ async function loads(address: string, file: DroppedFile): Promise<number> {
   }
 }
 
-
-function spread(values: number[]): string {
-  const sorted = values.map(Math.round).sort((a, b) => a - b);
-  return `${sorted[Math.floor(sorted.length / 2)]} ms (${sorted[0]} to ${sorted.at(-1)})`;
+function spread(values: readonly (number | undefined)[]): string {
+  const sorted = values.filter((it) => it !== undefined).map(Math.round).sort((a, b) => a - b);
+  return `${sorted[Math.floor(sorted.length / 2)]} (${sorted[0]} to ${sorted.at(-1)})`;
 }
 
 /** The middle value, of those that there are. */

@@ -1,7 +1,7 @@
 /** Third-party pages with the package for a test file: one browser and one server for all, and no unnoticed errors at the end. */
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { launch, SOFTWARE_GL } from "./browser.js";
+import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
 import { Tabs } from "./tabs.js";
@@ -14,7 +14,7 @@ export interface PackedPages {
 }
 
 /** Call once at the top of a test file. `files` are those of {@link servePacked}. */
-export function packedPages(files: Readonly<Record<string, string | Uint8Array>>, locale: string): PackedPages {
+export function packedPages(files: Readonly<Record<string, string | Uint8Array>>, locale: string, flags?: readonly string[]): PackedPages {
   let served: Served;
   let browser: Browser;
   const tabs = new Tabs();
@@ -22,7 +22,7 @@ export function packedPages(files: Readonly<Record<string, string | Uint8Array>>
 
   beforeAll(async () => {
     served = await servePacked(files);
-    browser = await launch(SOFTWARE_GL);
+    browser = await launch(flags);
   }, 120_000);
 
   afterAll(async () => {

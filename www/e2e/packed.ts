@@ -2,8 +2,6 @@
 import { cp, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
-import type { Page } from "playwright-core";
-import { launch } from "./browser.js";
 import { builtPackage } from "./built.js";
 import type { Served } from "./serve.js";
 import { serveFolder } from "./static.js";
@@ -31,19 +29,4 @@ export function serveApi(files: Readonly<Record<string, string | Uint8Array>>): 
     "main.js": `window.api = await import("./cusp-slicer/index.js");`,
     ...files,
   });
-}
-
-/** Measures on a page that has the headless slicer as `window.api`, and this model beside it as `model.stl`. */
-export async function onApiPage(model: Uint8Array, measure: (page: Page) => Promise<void>): Promise<void> {
-  const served = await serveApi({ "model.stl": model });
-  const browser = await launch();
-  try {
-    const page = await browser.newPage();
-    await page.goto(served.address);
-    await page.waitForFunction(() => "api" in window);
-    await measure(page);
-  } finally {
-    await browser.close();
-    await served.close();
-  }
 }

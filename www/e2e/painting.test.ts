@@ -1,17 +1,20 @@
 /** Painting weights with real pointer events: the plan follows the weights, and they come back from a file. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import { drop, settled, state } from "./browser.js";
+import { broken } from "./axe.js";
+import { drop, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
-import { SOFTWARE_GL } from "./view-pages.js";
 
 const start = pages(SOFTWARE_GL);
+
+/** A view that software draws quickly. */
+const SMALL = { viewport: { width: 1280, height: 500 } };
 
 const RADIUS = 10;
 /** The usual thickest layer. */
 const THICKEST_MM = 0.15;
-const ball = { name: "ball.stl", bytes: sphere(RADIUS, 96).bytes };
+const ball = { name: "ball.stl", bytes: sphere(RADIUS, 48).bytes };
 
 interface Planned {
   z_mm: number[];
@@ -36,7 +39,7 @@ const weights = (page: Page): Promise<number[] | null> =>
 
 /** Opens the ball and selects the brush. */
 async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
-  const page = await start(query);
+  const page = await start(query, SMALL);
   await drop(page, ball);
   await state(page, "done");
   await page.getByRole("radio", { name: "What matters" }).click();
@@ -87,7 +90,7 @@ async function widest(page: Page): Promise<void> {
   await page.getByRole("slider", { name: "Size (mm)" }).fill("95");
 }
 
-test("what is painted to matter less is planned thicker there and as before elsewhere; saved and reloaded, it is the same plan", async () => {
+test("what is painted to matter less is planned thicker there and as before elsewhere; undone and made again, saved and reloaded, it is the same plan", async () => {
   const page = await brushInHand();
   const before = await plan(page);
   expect(before.crc32).toBeNull();
@@ -121,6 +124,17 @@ test("what is painted to matter less is planned thicker there and as before else
     if (z_mm < lowest) expect(Math.abs((painted.z_mm[i] ?? Infinity) - z_mm)).toBeLessThan(THICKEST_MM);
   }
 
+  await page.locator("cusp-view .scene").focus();
+  await page.keyboard.press("Control+z");
+  await expect.poll(async () => Math.min(...((await weights(page)) ?? []))).toBe(1);
+  await settled(page);
+  // Weights of 1 give the same plan as no weights.
+  expect((await plan(page)).z_mm).toEqual(before.z_mm);
+  await page.keyboard.press("Control+Shift+z");
+  await settled(page);
+  expect((await plan(page)).z_mm).toEqual(painted.z_mm);
+  expect(await broken(page)).toEqual([]);
+
   const [file] = await Promise.all([
     page.waitForEvent("download"),
     page.getByRole("button", { name: "Save weights" }).click(),
@@ -136,33 +150,16 @@ test("what is painted to matter less is planned thicker there and as before else
   const reloaded = await plan(again);
   expect(reloaded.z_mm).toEqual(painted.z_mm);
   expect(reloaded.crc32).toBe(painted.crc32);
-});
-
-test("strokes are taken back and made again by keyboard, and the settings stay", async () => {
-  const page = await brushInHand();
-  const before = await plan(page);
-  await widest(page);
-  await page.locator("cusp-view .scene").focus();
-  // The brush is loaded when it is first selected, and paints nothing before.
-  const press = async (): Promise<number[] | null> => {
-    await page.keyboard.press("Enter");
-    await page.waitForTimeout(1_500);
-    return weights(page);
-  };
-  await expect.poll(press).not.toBeNull();
-  const painted = await weights(page);
-  expect(Math.min(...(painted ?? []))).toBe(0);
-  await page.keyboard.press("Control+z");
-  await expect.poll(async () => Math.min(...((await weights(page)) ?? []))).toBe(1);
-  await settled(page);
-  // Weights of 1 give the same plan as no weights.
-  expect((await plan(page)).z_mm).toEqual(before.z_mm);
-  await page.keyboard.press("Control+Shift+z");
-  await expect.poll(() => weights(page)).toEqual(painted);
-  await page.getByRole("button", { name: "Clear" }).click();
-  await expect.poll(() => weights(page)).toBeNull();
-  await settled(page);
-  expect((await plan(page)).crc32).toBeNull();
+  // Another model has none, and takes none of this one.
+  await drop(again, { name: "smaller.stl", bytes: sphere(RADIUS, 32).bytes });
+  await state(again, "done");
+  await again.getByRole("radio", { name: "What matters" }).click();
+  expect(await weights(again)).toBeNull();
+  await again.getByLabel("Load weights").setInputFiles(path);
+  await again.getByText(/ is of another model/).waitFor();
+  await again.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer: Buffer.from("nothing of the kind") });
+  await again.getByText("ball.weights holds no weights").waitFor();
+  expect(await weights(again)).toBeNull();
 });
 
 test("a stroke beside the model turns the view and paints nothing", async () => {
@@ -179,28 +176,8 @@ test("a stroke beside the model turns the view and paints nothing", async () => 
   expect((await view.screenshot()).equals(seen)).toBe(false);
 });
 
-test("weights of another model are a clear error", async () => {
-  const page = await brushInHand();
-  const other = await page.evaluate(async () => {
-    const slicer = document.querySelector("cusp-workbench");
-    const positions = await slicer?.slicer.positions();
-    const file = await slicer?.slicer.weightsFile(new Float32Array((positions?.length ?? 0) / 9).fill(0.5));
-    return [...new Uint8Array((await file?.arrayBuffer()) ?? new ArrayBuffer(0))];
-  });
-  await drop(page, { name: "smaller.stl", bytes: sphere(RADIUS, 48).bytes });
-  await state(page, "done");
-  await page.getByRole("radio", { name: "What matters" }).click();
-  const give = (buffer: Buffer): Promise<void> =>
-    page.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer });
-  await give(Buffer.from(other));
-  await page.getByText("ball.weights is of another model").waitFor();
-  await give(Buffer.from("nothing of the kind"));
-  await page.getByText("ball.weights holds no weights").waitFor();
-  expect(await weights(page)).toBeNull();
-});
-
 test("what stands out counts in the plan when that is switched on", async () => {
-  const page = await start("?backend=cpu&rays=512");
+  const page = await start("?backend=cpu&rays=512", SMALL);
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   const before = await plan(page);

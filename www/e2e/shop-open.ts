@@ -30,14 +30,15 @@ export interface Shops {
   program(script: string): Promise<string>;
 }
 
-export function shops(): Shops {
+/** @param page makes the folder of the page that is served; the folder it is given is removed in the end */
+export function shops(page: (root: string) => Promise<string> = builtShop): Shops {
   let built: string;
   let root: string;
   const opened: Shop[] = [];
 
   beforeAll(async () => {
-    built = await builtShop();
     root = await mkdtemp(join(tmpdir(), "cusp-shop-test-"));
+    built = await page(root);
   }, 120_000);
 
   afterEach(async () => {

@@ -7,8 +7,6 @@ import { Tabs } from "./tabs.js";
 import type { Harness, Heard } from "./view-page/main.js";
 import { serveView } from "./view-serve.js";
 
-export { SOFTWARE_GL };
-
 declare global {
   interface Window {
     harness: Harness;
@@ -44,7 +42,7 @@ export function viewPages(): (options?: Prepared) => Promise<Page> {
   });
 
   return async ({ before, ...options } = {}) => {
-    const usual = { locale: "en-GB", viewport: { width: 640, height: 640 }, reducedMotion: "reduce" } as const;
+    const usual = { locale: "en-GB", viewport: { width: 432, height: 448 }, reducedMotion: "reduce" } as const;
     const page = await tabs.take(browser, { ...usual, ...options }, before !== undefined);
     page.on("pageerror", (error) => complaints.push(error.message));
     page.on("console", (message) => {

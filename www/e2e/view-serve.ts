@@ -1,14 +1,12 @@
 /** Builds the view's own page and serves it, for its tests and for inspection. */
-import { mkdtemp, readdir, readFile, rm } from "node:fs/promises";
+import { mkdtemp, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { fileURLToPath } from "node:url";
-import { gzipSync } from "node:zlib";
 import { build, preview } from "vite";
 import { freePort, type Served } from "./serve.js";
 
-/** Also returns the compressed sizes of the scripts, by name. */
-export async function serveView(): Promise<Served & { sizes: ReadonlyMap<string, number> }> {
+export async function serveView(): Promise<Served> {
   const root = fileURLToPath(new URL("./view-page", import.meta.url));
   const outDir = await mkdtemp(join(tmpdir(), "cusp-view-"));
   await build({
@@ -29,10 +27,6 @@ export async function serveView(): Promise<Served & { sizes: ReadonlyMap<string,
       },
     },
   });
-  const sizes = new Map<string, number>();
-  for (const name of await readdir(join(outDir, "assets"))) {
-    if (name.endsWith(".js")) sizes.set(name, gzipSync(await readFile(join(outDir, "assets", name))).length);
-  }
   const port = await freePort();
   const server = await preview({
     root,
@@ -43,7 +37,6 @@ export async function serveView(): Promise<Served & { sizes: ReadonlyMap<string,
   });
   return {
     address: `http://127.0.0.1:${port}/`,
-    sizes,
     close: async () => {
       await server.close();
       await rm(outDir, { recursive: true });

@@ -1,8 +1,9 @@
 import { readFile } from "node:fs/promises";
+import { join } from "node:path";
 import { fileURLToPath } from "node:url";
 import satisfies from "spdx-satisfies";
 import { expect, test } from "vitest";
-import { crateParts, linkedCrates } from "./bill.js";
+import { crateParts, linkedCrates, npmParts, packageOf } from "./bill.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 
@@ -74,4 +75,15 @@ test("the bill names the crates of others that a module links, with checksums an
   // Only the reader of print files unpacks pictures.
   expect(parts.find(({ name }) => name === "png")?.files).toEqual(["cusp_reader_bg.wasm"]);
   expect((await crateParts(root, ["cusp_slicer_bg.wasm"])).map(({ name }) => name)).not.toContain("png");
+});
+
+test("a tool is not bundled unnoticed", async () => {
+  const bundled = [{ fileName: "index.js", moduleIds: [join(root, "node_modules/axe-core/axe.js")] }];
+  await expect(npmParts(root, bundled)).rejects.toThrow("axe-core is bundled, but is a development dependency");
+});
+
+test("the package of a file is the innermost", () => {
+  expect(packageOf("/a/node_modules/@lit/reactive-element/x.js")).toBe("@lit/reactive-element");
+  expect(packageOf("C:\\a\\node_modules\\one\\node_modules\\two\\x.js")).toBe("two");
+  expect(packageOf("/a/src/api/index.ts")).toBeUndefined();
 });

@@ -12,17 +12,6 @@ export interface Heard {
 
 const TYPES = ["cusp-rotate", "cusp-height", "cusp-layer", "cusp-frame", "cusp-view-error"];
 
-/** Nine numbers a facet from a binary STL. */
-function facetsOf(stl: ArrayBuffer): Float32Array {
-  const view = new DataView(stl);
-  const count = view.getUint32(80, true);
-  const out = new Float32Array(9 * count);
-  for (let facet = 0; facet < count; facet++) {
-    for (let i = 0; i < 9; i++) out[9 * facet + i] = view.getFloat32(84 + 50 * facet + 12 + 4 * i, true);
-  }
-  return out;
-}
-
 const heard: Heard[] = [];
 customElements.define("cusp-view", CuspView);
 const view = document.createElement("cusp-view");
@@ -85,7 +74,6 @@ const harness = {
   },
   heard,
   solids: { ball, box, cone },
-  facetsOf,
   /** Sets properties and waits until they are drawn. */
   async set(properties: Partial<CuspView>): Promise<void> {
     Object.assign(view, properties);

@@ -65,10 +65,11 @@ export const orientationStyles = css`
   .balance {
     grid-column: 1 / -1;
   }
+  /* Columns of their own: their names are long, and would leave the lists above too little. */
   .limits {
     display: grid;
     grid-column: 1 / -1;
-    grid-template-columns: subgrid;
+    grid-template-columns: auto minmax(0, 1fr);
     gap: inherit;
   }
   .limits > p {

@@ -1,15 +1,23 @@
-/** The order-site example's server: what it takes and refuses, without a browser and without the native program. */
+/** What the server takes and refuses, without a browser and without the native program. */
 import { randomUUID } from "node:crypto";
-import { open as openFile, readdir, readFile, readlink, rm, writeFile, type FileHandle } from "node:fs/promises";
+import { mkdir, open as openFile, readdir, readFile, readlink, rm, writeFile, type FileHandle } from "node:fs/promises";
 import { join, relative } from "node:path";
 import { expect, test, vi } from "vitest";
-import { FIXED, LIMITS, pricesOf } from "../examples/shop/catalogue.js";
-import { time } from "../examples/shop/page/format.js";
-import { languageOf } from "../src/texts/index.js";
-import { expectNoLeftovers, incoming, orders, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "./shop-open.js";
-import { ELEMENT_POLICY } from "./static.js";
+import { expectNoLeftovers, incoming, orders, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "../../../e2e/shop-open.js";
+import { ELEMENT_POLICY } from "../../../e2e/static.js";
+import { languageOf } from "../../../src/texts/index.js";
+import { FIXED, LIMITS, pricesOf } from "../catalogue.js";
+import { time } from "../page/format.js";
 
-const { folder: newFolder, open: start, program } = shops();
+/** Stands in for the built page. */
+async function onePage(root: string): Promise<string> {
+  const folder = join(root, "page");
+  await mkdir(folder);
+  await writeFile(join(folder, "index.html"), "<!doctype html><title>Shop</title>");
+  return folder;
+}
+
+const { folder: newFolder, open: start, program } = shops(onePage);
 
 const WARNINGS = [{ code: "black-layers", detail: { layers: 2, from_mm: 1 } }];
 const VERDICT = {
@@ -61,9 +69,9 @@ function post({ address }: OpenShop, { options, print, fields, key = randomUUID(
 
 test("every answer comes under the policy that the guide names", async () => {
   const { address } = await start("never called");
-  const guide = await readFile(new URL("../../docs/embed.md", import.meta.url), "utf8");
+  const guide = await readFile(new URL("../../../../docs/embed.md", import.meta.url), "utf8");
   expect(guide).toContain(ELEMENT_POLICY);
-  for (const path of ["", "goblet.stl", "nowhere", "..%2fserver%2fshop.ts"]) {
+  for (const path of ["", "nowhere", "..%2fserver%2fshop.ts"]) {
     const { headers } = await fetch(address + path);
     expect(headers.get("content-security-policy")).toMatch(new RegExp(`^${ELEMENT_POLICY.replaceAll(/[.*+?^${}()|[\]\\]/g, "\\$&")};`));
     expect(headers.get("x-content-type-options")).toBe("nosniff");

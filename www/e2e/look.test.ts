@@ -1,0 +1,223 @@
+/** The chart of the profile and the masks, by mouse, keyboard and fingers. */
+import type { BrowserContextOptions, Locator, Page } from "playwright-core";
+import { expect, test } from "vitest";
+import type { PlotPlace } from "../src/element/panels/profile-chart.js";
+import { drop, layers, maskOf, openPanel, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { sphere } from "./solids.js";
+
+const start = pages();
+const ELEMENT = "cusp-workbench";
+const BALL_MM = 20;
+
+async function opened(query = "", options: BrowserContextOptions = {}): Promise<Page> {
+  const page = await start(`?backend=cpu&${query}`, options);
+  await drop(page, { name: "ball.stl", bytes: sphere(BALL_MM / 2, 96).bytes });
+  await state(page, "done");
+  return page;
+}
+
+const plot = (page: Page): Locator => page.locator("cusp-chart .plot");
+
+/** Waits until the chart has drawn itself, and from then on keeps what it says of its heights. */
+async function heights(page: Page): Promise<() => Promise<[low: number, high: number]>> {
+  await page.locator("cusp-chart .marker").waitFor({ state: "attached" });
+  const chart = page.locator("cusp-chart");
+  await chart.evaluate((it) => {
+    it.addEventListener("cusp-plot", (event) => {
+      it.dataset["heights"] = JSON.stringify((event as CustomEvent<PlotPlace>).detail.heights_mm);
+    });
+  });
+  return () => chart.evaluate((it, whole) => JSON.parse(it.dataset["heights"] ?? `[0,${whole}]`) as [number, number], BALL_MM);
+}
+
+test("the chart is read by pointer, a click looks at a layer, a pinch zooms; keys do the same", async () => {
+  const page = await opened("metric=volume");
+  const over = page.locator("cusp-chart .u-over");
+  const said = page.locator("cusp-chart .foot");
+  await over.hover();
+  // The middle of a ball of 10 mm radius.
+  await expect.poll(() => said.innerText()).toMatch(/At (9\.\d\d|10\.[01]\d)\d\smm: a section of 31\d(\.\d)?\smm²/);
+  const area = await over.boundingBox();
+  if (area === null) throw new Error("there is no chart");
+  await over.click({ position: { x: area.width / 2, y: area.height / 4 } });
+  const inView = page.getByRole("slider", { name: "Layer in the view" });
+  expect(Number(/at (\d+\.\d+)/.exec((await inView.getAttribute("aria-valuetext")) ?? "")?.[1])).toBeCloseTo(15, 0);
+
+  const shown = await heights(page);
+  await over.hover();
+  await page.mouse.wheel(0, -100);
+  await page.keyboard.down("Control");
+  await page.mouse.wheel(0, -Math.log(2) * 100);
+  await page.keyboard.up("Control");
+  await expect.poll(shown).toEqual([expect.closeTo(BALL_MM / 4, 0), expect.closeTo((3 * BALL_MM) / 4, 0)]);
+  await page.mouse.move(0, 0);
+  await expect.poll(() => said.innerText()).toContain("Click to see a layer.");
+  await page.getByRole("button", { name: "Whole model" }).click();
+
+  const chart = page.getByRole("slider", { name: "Profile and plan" });
+  const now = async (): Promise<number> => Number(await chart.getAttribute("aria-valuenow"));
+  const count = Number(await chart.getAttribute("aria-valuemax"));
+  const keys = async (...names: string[]): Promise<void> => {
+    for (const name of names) await chart.press(name);
+  };
+  await keys("Home");
+  await expect.poll(now).toBe(1);
+  expect(await chart.getAttribute("aria-valuetext")).toMatch(/^Layer 1 of \d+, at 0\.000\smm, 0\.\d{3}\smm thick$/);
+  await keys("ArrowDown", "ArrowUp", "ArrowRight", "PageUp");
+  await expect.poll(now).toBe(13);
+  await keys("PageDown", "ArrowLeft", "End", "ArrowUp");
+  await expect.poll(now).toBe(count);
+
+  const whole = page.getByRole("button", { name: "Whole model" });
+  await expect.poll(() => whole.count()).toBe(0);
+  await keys("+", "=");
+  await expect.poll(shown).toEqual([expect.closeTo(BALL_MM - BALL_MM / 1.5 ** 2, 1), expect.closeTo(BALL_MM, 1)]);
+  await whole.waitFor();
+  // What is on show follows the layer.
+  await keys("Home");
+  await expect.poll(shown).toEqual([expect.closeTo(0, 1), expect.closeTo(BALL_MM / 1.5 ** 2, 1)]);
+  await keys("-");
+  await expect.poll(shown).toEqual([expect.closeTo(0, 1), expect.closeTo(BALL_MM / 1.5, 1)]);
+  await keys("0");
+  await expect.poll(shown).toEqual([0, BALL_MM]);
+  await expect.poll(() => whole.count()).toBe(0);
+  // However far: some layers stay on show.
+  await keys(...Array.from({ length: 20 }, () => "+"));
+  await expect.poll(async () => -(await shown()).reduce((low, high) => low - high)).toBeCloseTo(0.6, 6);
+  await whole.click();
+  await expect.poll(shown).toEqual([0, BALL_MM]);
+  expect(await page.evaluate(() => document.activeElement?.shadowRoot?.activeElement?.localName)).toBe("cusp-chart");
+});
+
+test("two fingers zoom and move the chart, one scrolls what it stands in, a tap looks at a layer", async () => {
+  const page = await opened("", { hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+  await openPanel(page, "Profile");
+  const shown = await heights(page);
+  const box = await page.locator("cusp-chart .u-over").boundingBox();
+  if (box === null) throw new Error("there is no chart");
+  const session = await page.context().newCDPSession(page);
+  /** Heights as parts of the plot; the fingers lie one above the other. */
+  const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...parts: number[]): Promise<unknown> =>
+    session.send("Input.dispatchTouchEvent", {
+      type,
+      touchPoints: parts.map((part, id) => ({ id, x: box.x + box.width * (0.5 + 0.02 * id), y: box.y + box.height * (1 - part) })),
+    });
+  /** A gesture in small steps, as fingers make it. */
+  const drag = async (from: number[], to: number[]): Promise<void> => {
+    await touch("touchStart", ...from);
+    for (let step = 1; step <= 10; step++) await touch("touchMove", ...from.map((part, i) => part + ((to[i] ?? 0) - part) * (step / 10)));
+    await touch("touchEnd");
+  };
+  const near = (low: number, high: number): unknown[] => [expect.closeTo(low, 0), expect.closeTo(high, 0)];
+  await drag([0.4, 0.6], [0.1, 0.9]);
+  const [low, high] = await shown();
+  expect(high - low).toBeCloseTo(BALL_MM / 4, 0);
+  expect((low + high) / 2).toBeCloseTo(BALL_MM / 2, 0);
+  await drag([0.4, 0.6], [0.6, 0.8]);
+  await expect.poll(shown).toEqual(near(low - 0.2 * (high - low), high - 0.2 * (high - low)));
+  await page.getByRole("button", { name: "Whole model" }).tap();
+  await expect.poll(shown).toEqual([0, BALL_MM]);
+
+  const said = page.locator("cusp-chart .foot");
+  expect(await said.innerText()).toContain("Tap to see a layer. Pinch to zoom.");
+  Object.assign(box, await page.locator("cusp-chart .u-over").boundingBox());
+  await page.touchscreen.tap(box.x + box.width / 2, box.y + box.height / 4);
+  const text = (): Promise<string | null> => plot(page).getAttribute("aria-valuetext");
+  await expect.poll(async () => Number(/at (\d+\.\d+)/.exec((await text()) ?? "")?.[1])).toBeCloseTo(15, 0);
+  await expect.poll(() => said.innerText()).toMatch(/^At 1[45]\.\d+\smm: /);
+
+  // In a box that scrolls, as a page does.
+  await page.evaluate((element) => {
+    const chart = document.querySelector(element)?.shadowRoot?.querySelector("cusp-chart");
+    const section = chart?.parentElement;
+    if (!chart || !section) throw new Error("there is no chart");
+    chart.style.height = "auto";
+    Object.assign(section.style, { height: "300px", flex: "none", overflow: "auto" });
+    section.id = "scrolling";
+  }, ELEMENT);
+  const scrolled = (): Promise<number> => page.locator("#scrolling").evaluate((it) => it.scrollTop);
+  const before = await shown();
+  Object.assign(box, await page.locator("cusp-chart .u-over").boundingBox());
+  await drag([0.9, 0.95], [0.8, 0.98]);
+  expect(await scrolled()).toBe(0);
+  await expect.poll(shown).not.toEqual(before);
+  const zoomed = await shown();
+  await drag([0.7], [0.95]);
+  await expect.poll(scrolled).toBeGreaterThan(20);
+  expect(await shown()).toEqual(zoomed);
+});
+
+test("masks are played from below, zoomed to their pixels and moved by keyboard", async () => {
+  const page = await opened("planner=uniform&uniform=0.15");
+  const count = await layers(page);
+  await openPanel(page, "Mask");
+  const slider = page.getByRole("slider", { name: "Layer", exact: true });
+  await slider.fill(String(count - 4));
+  await maskOf(page, count - 5);
+  await page.getByRole("button", { name: "Play" }).click();
+  await maskOf(page, count - 1);
+  await expect.poll(() => page.getByRole("button", { name: "Play" }).count()).toBe(1);
+  await page.getByRole("button", { name: "Play" }).click();
+  await page.waitForFunction(() => {
+    const root = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-mask")?.shadowRoot;
+    return Number(root?.querySelector("canvas")?.dataset["layer"]) > 2;
+  });
+  await page.getByRole("button", { name: "Pause" }).click();
+
+  await slider.fill(String(Math.round(count / 2)));
+  await maskOf(page, Math.round(count / 2) - 1);
+  const canvas = page.locator("cusp-mask canvas");
+  /** Numbers of white and of grey pixels in the middle row. */
+  const row = (): Promise<{ lit: number; grey: number }> =>
+    canvas.evaluate((it) => {
+      const canvas = it as HTMLCanvasElement;
+      const { data } = canvas.getContext("2d")?.getImageData(0, canvas.height >> 1, canvas.width, 1) ?? { data: [] };
+      const values = Array.from(data).filter((_, i) => i % 4 === 0);
+      return { lit: values.filter((v) => v === 255).length, grey: values.filter((v) => v > 0 && v < 255).length };
+    });
+  await expect.poll(async () => (await row()).lit).toBeGreaterThan(0);
+  for (let i = 0; i < 5; i++) await page.getByRole("button", { name: "Zoom in" }).click();
+  expect(await page.locator("cusp-mask .zoom").innerText()).toContain("32 ×");
+  const { lit } = await row();
+  // A quarter from the left, the rim of the ball is at 1/2 - √3/4 from the top; an arrow key moves by an eighth of the view.
+  await canvas.focus();
+  for (let i = 0; i < 0.25 * 32 * 8; i++) await page.keyboard.press("ArrowLeft");
+  for (let i = 0; i < (Math.sqrt(3) / 4) * 32 * 8; i++) await page.keyboard.press("ArrowUp");
+  await expect.poll(async () => (await row()).lit).toBeLessThan(lit);
+  expect((await row()).lit).toBeGreaterThan(0);
+  expect((await row()).grey).toBe(0);
+  await page.keyboard.press("-");
+  expect(await page.locator("cusp-mask .zoom").innerText()).toContain("16 ×");
+});
+
+test("two fingers zoom a mask, not the page, and one drags it; the hint is for fingers", async () => {
+  const page = await opened("", { hasTouch: true, isMobile: true, viewport: { width: 390, height: 844 } });
+  await openPanel(page, "Mask");
+  await page.waitForSelector("canvas[data-layer]");
+  const box = await page.locator("cusp-mask .well").boundingBox();
+  if (box === null) throw new Error("there is no picture");
+  // At the left edge of the ball, so that there is something to see when it moves.
+  const [x, y] = [box.x + (box.width - box.height) / 2 + 10, box.y + box.height / 2];
+  const session = await page.context().newCDPSession(page);
+  const touch = async (type: "touchStart" | "touchMove" | "touchEnd", ...fingers: (readonly [number, number])[]): Promise<void> => {
+    await session.send("Input.dispatchTouchEvent", { type, touchPoints: fingers.map(([x, y], id) => ({ x, y, id })) });
+  };
+  const zoom = page.locator("cusp-mask .zoom");
+  expect(await zoom.count()).toBe(0);
+  await touch("touchStart", [x, y - 20], [x, y + 20]);
+  for (const reach of [30, 45, 60]) await touch("touchMove", [x, y - reach], [x, y + reach]);
+  await touch("touchEnd");
+  await expect.poll(() => zoom.innerText()).toBe("3 ×");
+  expect(await page.evaluate(() => visualViewport?.scale)).toBe(1);
+  expect(await page.locator("cusp-mask .hint .taps").isVisible()).toBe(true);
+  expect(await page.locator("cusp-mask .hint .hovers").isVisible()).toBe(false);
+
+  const picture = (): Promise<string> => page.locator("cusp-mask canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
+  const zoomed = await picture();
+  await touch("touchStart", [x, y]);
+  for (const by of [20, 40, 60]) await touch("touchMove", [x + by, y]);
+  await touch("touchEnd");
+  await expect.poll(picture).not.toBe(zoomed);
+  expect(await zoom.innerText()).toBe("3 ×");
+});

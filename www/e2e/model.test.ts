@@ -1,0 +1,198 @@
+/** The 3-D view in the page: what is drawn follows the model, and the plan follows what is done in the view. */
+import type { Page } from "playwright-core";
+import { expect, test } from "vitest";
+import type { CuspView } from "../src/view/cusp-view.js";
+import { downloaded, drop, layers, openPanel, settled, SOFTWARE_GL, state } from "./browser.js";
+import { pages } from "./pages.js";
+import { cup, prism, sphere } from "./solids.js";
+
+const start = pages(SOFTWARE_GL);
+
+/** A view that software draws quickly. */
+const SMALL = { viewport: { width: 1280, height: 500 } };
+const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
+const block = { name: "block.stl", bytes: prism(12, 8).bytes };
+
+const said = (page: Page): Promise<string> =>
+  page.locator("cusp-view #state").evaluate((it) => (it.textContent ?? "").replace(/\s+/g, " ").trim());
+
+test("held, the model is previewed as it turns; let go, or turned by keyboard, it is planned; undo and a button turn it back", async () => {
+  const page = await start("?backend=cpu&rays=512", SMALL);
+  await drop(page, block);
+  await state(page, "done");
+  await page.waitForSelector("cusp-view .scene");
+  const upright = await layers(page);
+  await page.getByRole("radio", { name: "Turn the model" }).click();
+  await page.locator("cusp-view .scene").focus();
+  for (let i = 0; i < 18; i++) await page.keyboard.press("ArrowUp");
+  await settled(page);
+  await expect.poll(() => layers(page)).not.toBe(upright);
+  const lying = await layers(page);
+  const { searchParams } = new URL(page.url());
+  const rotation = (searchParams.get("rotation") ?? "").split(",").map(Number);
+  expect(Math.hypot(...rotation)).toBeCloseTo(1, 4);
+  // A quarter turn about one axis.
+  expect(Math.abs(rotation[3] ?? 0)).toBeCloseTo(Math.SQRT1_2, 3);
+  await expect.poll(() => said(page)).toMatch(/ × 12\.\d mm, /);
+
+  await page.getByRole("button", { name: "As in the file" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(upright);
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await layers(page)).toBe(lying);
+  await page.getByRole("button", { name: "As in the file" }).click();
+  await settled(page);
+
+  const tell = (rotation: number[], final: boolean): Promise<void> =>
+    page.evaluate(
+      ([rotation, final]) => {
+        const root = document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("cusp-model")?.shadowRoot;
+        root?.querySelector("cusp-view")?.dispatchEvent(new CustomEvent("cusp-rotate", { detail: { rotation, final } }));
+      },
+      [rotation, final] as const,
+    );
+  await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], false);
+  await expect.poll(() => layers(page)).not.toBe(upright);
+  // A preview is not a task: nothing is busy, and no plan was made.
+  await state(page, "done");
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
+  const previewed = await layers(page);
+  await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], true);
+  await settled(page);
+  expect(new URL(page.url()).searchParams.has("rotation")).toBe(true);
+  // Planned from the same facets; rays only leave out those that lie inside.
+  expect(Math.abs((await layers(page)) - previewed)).toBeLessThan(0.02 * previewed);
+});
+
+test("beside the chart, heights are where the chart has them", async () => {
+  const page = await start("?backend=cpu&rays=512", { viewport: { width: 1280, height: 800 } });
+  await drop(page, ball);
+  await state(page, "done");
+  const beside = page.getByRole("switch", { name: "Beside the profile" });
+  await expect.poll(() => beside.isChecked()).toBe(true);
+  /** Upper edge and plate of the model on the screen, and those of the chart's plot. */
+  const edges = (): Promise<number[]> =>
+    page.evaluate(async () => {
+      const root = document.querySelector("cusp-workbench")?.shadowRoot;
+      const panel = root?.querySelector("cusp-model")?.shadowRoot;
+      const view = panel?.querySelector("cusp-view");
+      const over = root?.querySelector("cusp-chart")?.shadowRoot?.querySelector(".u-over")?.getBoundingClientRect();
+      const aligned = panel?.querySelector<HTMLElement>("[role=switch]");
+      if (!view || !over || !aligned) throw new Error("there is no view beside a chart");
+      const frame = new Promise<{ top_px: number; bottom_px: number }>((resolve) => {
+        // It reports where heights are when it is aligned again.
+        const hear = (event: Event): void => {
+          const { detail } = event as CustomEvent<{ top_px: number; bottom_px: number } | null>;
+          if (detail === null) return aligned.click();
+          view.removeEventListener("cusp-frame", hear);
+          resolve(detail);
+        };
+        view.addEventListener("cusp-frame", hear);
+        aligned.click();
+      });
+      const { top } = view.getBoundingClientRect();
+      const { top_px, bottom_px } = await frame;
+      return [top + top_px - over.top, top + bottom_px - over.bottom];
+    });
+  for (const distance of await edges()) expect(Math.abs(distance)).toBeLessThan(1);
+});
+
+test("a copy on the plate is moved by keyboard and by pointer; one that overlaps another is told, and arranging puts it back", async () => {
+  const page = await start("?printer=mars-4-ultra&rays=512", SMALL);
+  await drop(page, ball, block);
+  await state(page, "done");
+  const moved = page.locator("cusp-plate").getByText("Copies stand where they were moved.");
+  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  const scene = page.locator("cusp-view .scene");
+  await scene.focus();
+  await scene.press("ArrowDown");
+  await moved.waitFor();
+  await settled(page);
+  // To the right, into the block.
+  for (let i = 0; i < 2; i++) await scene.press("Shift+ArrowRight");
+  await state(page, "error");
+  expect(await page.getByRole("alert").innerText()).toContain("Copy 1 of model 1 and copy 1 of model 2 overlap on plate 1");
+  await page.getByRole("button", { name: "Arrange", exact: true }).click();
+  await state(page, "done");
+  await expect.poll(() => moved.count()).toBe(0);
+
+  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  const { x, y, width, height } = (await page.locator("cusp-view canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+  // Where exactly the ball stands, the camera knows. A press beside it turns the view.
+  let isMoved = false;
+  const parts = [0.25, 0.35, 0.45, 0.55, 0.65];
+  for (const [across, down] of parts.flatMap((down) => parts.map((across) => [across, down] as const))) {
+    const at = { x: x + across * width, y: y + down * height };
+    await page.mouse.move(at.x, at.y);
+    await page.mouse.down();
+    await page.mouse.move(at.x, at.y + 12, { steps: 4 });
+    await page.mouse.up();
+    isMoved = (await moved.count()) + (await page.getByRole("alert").count()) > 0;
+    if (isMoved) break;
+  }
+  expect(isMoved).toBe(true);
+});
+
+test("the view has the supports of every copy, and the surface of a print file; the best orientations have pictures", async () => {
+  const page = await start("?printer=mars-4-ultra&rays=512&supports=light", SMALL);
+  await drop(page, ball, block);
+  await state(page, "done");
+  /** Numbers of facets of supports, by copy. */
+  const facets = (): Promise<number[]> => page.locator("cusp-view").evaluate(({ copies }: CuspView) => copies.map(({ supports }) => (supports?.length ?? 0) / 9));
+  await expect.poll(async () => (await facets()).length).toBe(2);
+  expect(Math.min(...(await facets()))).toBeGreaterThan(100);
+  const { bytes } = await downloaded(page);
+  await page.getByRole("button", { name: "Remove ball.stl" }).click();
+  await expect.poll(() => page.locator("cusp-plate").count()).toBe(0);
+  await openPanel(page, "Support");
+  await page.getByLabel("Supports").selectOption("None");
+  await settled(page);
+  await openPanel(page, "Turn");
+  await page.getByRole("button", { name: "Find the best orientation" }).click();
+  const pictures = page.locator("cusp-orientation .pose canvas[data-drawn]");
+  await expect.poll(() => pictures.count()).toBe(3);
+  const drawn = await pictures.evaluateAll((all) => all.map((it) => (it as HTMLCanvasElement).toDataURL()));
+  const blank = await page.evaluate(() => Object.assign(document.createElement("canvas"), { width: 256, height: 256 }).toDataURL());
+  expect(drawn).not.toContain(blank);
+  await drop(page, { name: "plate.goo", bytes });
+  await page.locator("cusp-print cusp-view canvas").waitFor();
+});
+
+test("the thickness of walls is shown by keyboard, and ends where other colours are asked for", async () => {
+  const page = await start("?backend=cpu&rays=512", SMALL);
+  await drop(page, { name: "mug.stl", bytes: cup(10, 8, 1.5) });
+  await state(page, "done");
+  await openPanel(page, "Check");
+  const toggle = page.getByRole("switch", { name: "Show wall thickness" });
+  await toggle.focus();
+  await page.keyboard.press("Space");
+  const scale = page.locator("cusp-view .legend.walls");
+  await scale.waitFor();
+  expect((await scale.innerText()).replaceAll(/\s+/g, " ")).toBe("Wall thickness (mm) 0 1 2 3 ≥ 4 Thinner than 0.4 mm");
+  expect(await page.locator("cusp-findings .legend.walls").isVisible()).toBe(false);
+  expect(await page.locator("cusp-view").evaluate((view: CuspView) => Math.min(...(view.walls?.thickness_mm ?? [])))).toBeCloseTo(1.5, 3);
+  // It stays when another panel is looked at.
+  await openPanel(page, "Mask");
+  expect(await scale.isVisible()).toBe(true);
+  await page.getByRole("switch", { name: "As printed" }).click();
+  await scale.waitFor({ state: "detached" });
+  await openPanel(page, "Check");
+  expect(await toggle.isChecked()).toBe(false);
+});
+
+test("on the smallest phone an open sheet leaves the view its room, and has some itself", async () => {
+  const page = await start("", { viewport: { width: 320, height: 640 }, hasTouch: true, isMobile: true });
+  await drop(page, ball);
+  await state(page, "done");
+  await page.waitForSelector("cusp-view canvas");
+  for (const name of ["Support", "Profile"]) {
+    await page.locator("nav").getByRole("button", { name }).tap();
+    await page.locator(".sheet").getByRole("heading", { name, level: 2 }).waitFor();
+    const height = async (selector: string): Promise<number> => (await page.locator(selector).boundingBox())?.height ?? 0;
+    expect(await height("cusp-view")).toBeGreaterThan(165);
+    expect(await height(".sheet .panel")).toBeGreaterThan(110);
+    expect(await page.evaluate(() => document.documentElement.scrollHeight - innerHeight)).toBe(0);
+  }
+});

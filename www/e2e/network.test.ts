@@ -1,0 +1,152 @@
+/** What the page fetches, when, and what happens where it cannot. */
+import type { Browser, Page } from "playwright-core";
+import { afterAll, beforeAll, expect, inject, test } from "vitest";
+import { drop, launch, layers, open, openPanel, state, USUAL, visit } from "./browser.js";
+import { beforeView, whole } from "./loaded.js";
+import { sphere } from "./solids.js";
+
+const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
+
+let browser: Browser;
+
+beforeAll(async () => {
+  browser = await launch();
+});
+
+afterAll(() => browser.close());
+
+test("loaded once, the page opens and slices without a network", async () => {
+  const { page, complaints } = await open(browser, inject("address"), { serviceWorkers: "allow" });
+  await page.evaluate(async () => void (await navigator.serviceWorker.ready));
+  await page.context().setOffline(true);
+  await page.goto(`${inject("address")}?height=20`);
+  await page.waitForSelector("cusp-workbench[state=empty]");
+  // A local file needs no network.
+  await page.getByLabel(/Choose a file/).setInputFiles({ name: ball.name, mimeType: "", buffer: Buffer.from(ball.bytes) });
+  await state(page, "done");
+  expect(await layers(page)).toBeGreaterThan(134);
+  // What is fetched when it is shown comes from the cache.
+  await page.waitForSelector("cusp-chart .plot canvas");
+  await openPanel(page, "Check");
+  await page.waitForSelector("cusp-findings [data-verdict]");
+  expect(complaints).toEqual([]);
+  await page.context().close();
+});
+
+test("the page is forbidden to send anything anywhere", async () => {
+  const { page } = await open(browser, inject("address"));
+  const forbidden = await page.evaluate(
+    () =>
+      new Promise<string>((resolve) => {
+        document.addEventListener("securitypolicyviolation", (event) => resolve(event.effectiveDirective), { once: true });
+        fetch("http://localhost:9/").catch(() => undefined);
+      }),
+  );
+  expect(forbidden).toBe("connect-src");
+  await page.context().close();
+});
+
+test("a slicer that cannot be fetched says what to do, and is fetched again with the next file", async () => {
+  const page = await (await browser.newContext(USUAL)).newPage();
+  let isThere = false;
+  await page.route(/\.wasm$/, (route) => (isThere ? route.continue() : route.abort()));
+  await visit(page, inject("address"));
+  await drop(page, ball);
+  await state(page, "error");
+  const alert = page.getByRole("alert");
+  await expect.poll(() => alert.innerText()).toContain("The slicer could not be started");
+  expect(await alert.innerText()).toContain("Reload the page.");
+  isThere = true;
+  await drop(page, ball);
+  await state(page, "done");
+  await page.context().close();
+});
+
+declare global {
+  interface Window {
+    /** What happened, in order. */
+    seen: string[];
+  }
+}
+
+/** Runs before the page's own scripts: notes calls to workers, the element's states, and when the view wants to draw. */
+function note(): void {
+  const seen: string[] = (window.seen = []);
+  const { postMessage } = Worker.prototype;
+  Worker.prototype.postMessage = function (message: { path?: string[] }, moved?: Transferable[] | StructuredSerializeOptions) {
+    const call = message.path?.join(".") ?? "";
+    if (call !== "") seen.push(call);
+    // A plan that is never made.
+    if (call === "plan" && location.search.includes("hangs")) return;
+    postMessage.call(this, message, { transfer: Array.isArray(moved) ? moved : (moved?.transfer ?? []) });
+  };
+  const { getContext } = HTMLCanvasElement.prototype;
+  HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, kind: string, ...options: unknown[]) {
+    if (kind === "webgl2" && !seen.includes("view")) seen.push("view");
+    return (getContext as (...given: unknown[]) => unknown).call(this, kind, ...options);
+  } as typeof getContext;
+  new MutationObserver(() => {
+    const state = document.querySelector("cusp-workbench")?.getAttribute("state") ?? "";
+    if (seen.at(-1) !== state) seen.push(state);
+  }).observe(document, { subtree: true, attributeFilter: ["state"] });
+}
+
+/** A page that notes what happens, and the names of the scripts that it fetches. */
+async function noted(query = "", before: () => void = () => undefined): Promise<{ page: Page; scripts: string[] }> {
+  const page = await (await browser.newContext(USUAL)).newPage();
+  const scripts: string[] = [];
+  page.on("request", (request) => scripts.push(request.url().split("/").at(-1) ?? ""));
+  await page.addInitScript(note);
+  await page.addInitScript(before);
+  await visit(page, inject("address") + query);
+  return { page, scripts };
+}
+
+const seen = (page: Page): Promise<string[]> => page.evaluate(() => window.seen);
+
+test("an idle page fetches the view and compiles a plan before there is a model; then the plan comes first, and the view has its model", async () => {
+  const { page, scripts } = await noted();
+  await expect.poll(() => scripts.some((name) => name.startsWith("cusp-view"))).toBe(true);
+  await expect.poll(() => seen(page)).toContain("rehearse");
+  expect(await seen(page)).not.toContain("view");
+  await drop(page, ball);
+  await expect.poll(() => seen(page)).toContain("view");
+  const order = await seen(page);
+  expect(order.indexOf("plan")).toBeGreaterThan(order.indexOf("open"));
+  expect(order.indexOf("done")).toBeGreaterThan(order.indexOf("plan"));
+  expect(order.indexOf("view")).toBeGreaterThan(order.indexOf("done"));
+  // The worker that has read the model gives it to the view: no other reads it again.
+  expect(order.filter((it) => it === "open" || it === "positions" || it === "boot")).toEqual(["boot", "open"]);
+  await page.context().close();
+
+  const slow = await noted("?hangs");
+  await drop(slow.page, ball);
+  await expect.poll(() => seen(slow.page)).toContain("view");
+  expect(await slow.page.locator("cusp-workbench").getAttribute("state")).toBe("busy");
+  await slow.page.context().close();
+});
+
+test("for whoever saves data, the view is fetched with the first model", async () => {
+  const { page, scripts } = await noted("", () => {
+    Object.defineProperty(navigator, "connection", { value: { saveData: true } });
+  });
+  await expect.poll(() => seen(page)).toContain("rehearse");
+  await page.waitForLoadState("networkidle");
+  expect(scripts.filter((name) => name.startsWith("cusp-view"))).toEqual([]);
+  await drop(page, ball);
+  await expect.poll(() => scripts.some((name) => name.startsWith("cusp-view"))).toBe(true);
+  await page.context().close();
+});
+
+test("what the page loads before its 3-D view, beside the wasm, is at most 124 KB", async () => {
+  const { page } = await open(browser, inject("address"), { locale: "de-DE" });
+  const sizes = await beforeView(page);
+  await page.reload();
+  await state(page, "empty");
+  await drop(page, ball);
+  await state(page, "done");
+  await page.waitForSelector(".u-over");
+  expect(sizes.size).toBeGreaterThan(4);
+  expect(whole(sizes), [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(124_000);
+  await page.context().close();
+});
