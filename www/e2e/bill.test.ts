@@ -21,8 +21,6 @@ test("the bill names what is bundled, where it is, and the notices repeat the li
   expect(files("npm/comlink")).toContain("worker.js");
   expect(files("cargo/glam")).toContain("cusp_slicer_bg.wasm");
   expect(files("cargo/wgpu")).not.toEqual([]);
-  // The readers of print files are of the page alone, and so is what they read with.
-  expect(files("cargo/png")).toEqual([]);
   expect(components.filter(({ evidence }) => !evidence.occurrences.every(({ location }) => existsSync(join(packed, location))))).toEqual([]);
   const notices = await read("NOTICES.txt");
   expect(notices).toContain("Copyright (c) 2017 Google LLC");
