@@ -200,7 +200,12 @@ fn gpu_on_swiftshader(project: &Project, scratch: &Path) -> Result<Tally> {
 
 /// Builds the command line for tests that call it, and returns its path.
 fn build_cusp(project: &Project) -> Result<PathBuf> {
-    process::run(process::cargo(project).args(["build", "--workspace", "--bin", "cusp"]))?;
+    // With a test, dependencies have the features that tests ask for, and nothing is compiled a second time.
+    process::run(
+        process::cargo(project)
+            .args(["build", "--workspace", "--bin", "cusp"])
+            .args(["--test", "external"]),
+    )?;
     let name = format!("debug/cusp{}", std::env::consts::EXE_SUFFIX);
     Ok(project.target.join(name))
 }
