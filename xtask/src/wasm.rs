@@ -188,9 +188,11 @@ pub fn test_command(project: &Project) -> Result<Command> {
     let chromium = browser::chromium()?;
     let mut wasm_pack = wasm_pack(project)?;
     wasm_pack
-        .args(["test", "wasm", "--release", "--headless", "--chrome"])
+        .args(["test", "--release", "--headless", "--chrome"])
         .args(["--mode", "no-install", "--chromedriver"])
         .arg(browser::chromedriver(&chromium)?)
+        // Whatever stands behind the package goes to cargo.
+        .arg("wasm")
         // Software GPUs are slow; the runner's own limit is 20 seconds for all tests.
         .env("WASM_BINDGEN_TEST_TIMEOUT", "900")
         .env("WASM_BINDGEN_TEST_DRIVER_TIMEOUT", "60")
