@@ -296,19 +296,17 @@ async fn gpu_equals_cpu_in_the_browser() {
     let all = all.map(|(name, triangles)| (name, triangles, 200));
     for (name, triangles, rays) in all.chain(solids::torture()) {
         let mesh = on_plate(&triangles);
-        for shift in [[0.0; 2], [0.371, -0.618]] {
-            let grid = shifted_grid(&mesh, rays, shift);
-            let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
-            for method in [Method::Fill, Method::Peel] {
-                let found =
-                    gpu::sample(&mesh, &grid, &gpu, Default::default(), method, &mut silent).await;
-                let same = found.unwrap() == expected;
-                assert!(
-                    same,
-                    "{name}, shifted by {shift:?}, differs by {method:?} on {}",
-                    gpu.name()
-                );
-            }
+        // Other shifts are tried natively, on two drivers.
+        let grid = shifted_grid(&mesh, rays, [0.371, -0.618]);
+        let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
+        for method in [Method::Fill, Method::Peel] {
+            let found =
+                gpu::sample(&mesh, &grid, &gpu, Default::default(), method, &mut silent).await;
+            assert!(
+                found.unwrap() == expected,
+                "{name} differs by {method:?} on {}",
+                gpu.name()
+            );
         }
     }
 }
