@@ -129,7 +129,7 @@ fn pixels(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
 }
 
 /// A zip of these files.
-fn zipped(files: &[(String, Vec<u8>)]) -> Vec<u8> {
+pub fn zipped(files: &[(String, Vec<u8>)]) -> Vec<u8> {
     let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
     for (name, bytes) in files {
         zip.start_file(name.as_str(), SimpleFileOptions::default())

@@ -5,18 +5,18 @@ mod oracle;
 mod solids;
 mod tolerance;
 
-use std::io::{Cursor, Read as _, Write as _};
+use std::io::{Cursor, Read as _};
 
 use crate::common::solids::Triangles;
 use crate::common::{binary_stl, quiet};
+use crate::inspect::zipped;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Slicer};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use cusp_slicer::simulation::{Knowledge, Simulation, SimulationError, simulate};
 use serde_json::{Value, json};
-use zip::write::SimpleFileOptions;
-use zip::{ZipArchive, ZipWriter};
+use zip::ZipArchive;
 
 /// Uniform layers of `layer_mm`, and square pixels.
 fn uniform(layer_mm: f64, pitch_mm: f64) -> Options {
@@ -48,17 +48,6 @@ fn sliced_and_measured(triangles: &Triangles, options: &Options) -> Simulation {
 fn error(triangles: &Triangles, print_file: &[u8]) -> SimulationError {
     let mesh = Mesh::from_triangles(triangles).unwrap();
     simulate(&mesh, print_file, &Knowledge::default(), &mut silent).unwrap_err()
-}
-
-/// A zip of these files.
-fn zipped(files: &[(String, Vec<u8>)]) -> Vec<u8> {
-    let mut zip = ZipWriter::new(Cursor::new(Vec::new()));
-    for (name, bytes) in files {
-        zip.start_file(name.as_str(), SimpleFileOptions::default())
-            .unwrap();
-        zip.write_all(bytes).unwrap();
-    }
-    zip.finish().unwrap().into_inner()
 }
 
 /// The files of a zip.
