@@ -1,6 +1,6 @@
 //! The fuzz targets on every compiler: their seeds, which include what fuzzing has found, and some changes to each.
 //!
-//! `BLESS=1 cargo test --test main fuzz::` makes those seeds anew that are made by code; others stay.
+//! `BLESS=1 cargo test --test main fuzz::` rewrites the seeds that are made by code, and leaves the others.
 
 #[path = "../fuzz/src/lib.rs"]
 #[expect(

@@ -36,7 +36,7 @@ enum Need {
 const PRUSA_SLICER: Need = Need::Program("prusa-slicer", "--help");
 
 impl Need {
-    /// What is absent, in words.
+    /// The absent program, module or GPU, as the reason of an ignored test; none if it is there.
     fn absent(self) -> Option<String> {
         match self {
             Self::Gpu => NO_GPU.clone(),
@@ -55,7 +55,7 @@ impl Need {
     }
 }
 
-/// Why there is no GPU, if there is none.
+/// The reason for the lack of a GPU; none if there is one.
 static NO_GPU: LazyLock<Option<String>> =
     LazyLock::new(|| match pollster::block_on(Gpu::open(Adapters::Any)) {
         Err(LdiError::NoGpu { system }) => Some(system),

@@ -1,6 +1,6 @@
 /**
  * Measures how long the page takes from the drop of a model, and its memory: `npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]]`. The
- * model is a file, `example`, which is the page's example with 111,600 facets, or a number: a ball of about so many facets.
+ * model is a file, `example`, which is the page's example with 111,600 facets, or a number: a ball of about that many facets.
  *
  * Each of five rounds, or as many as `--rounds` says, has a browser of its own, so that nothing is kept from the round before; the median
  * counts. On one page the model is only looked at, on the other the print file is downloaded as well, as soon as its plan is there. Somebody

@@ -5,7 +5,7 @@ use std::{path::Path, process::ExitStatus, time::Duration};
 use anyhow::{Context, Result, ensure};
 use serde_json::Value;
 
-/// What a test runner did.
+/// Results of a test runner.
 #[derive(Debug, Default, PartialEq)]
 pub struct Tally {
     /// Tests that passed.
@@ -20,9 +20,9 @@ pub struct Tally {
 pub struct Record {
     /// The step's name.
     pub step: String,
-    /// What it ran, or why it failed as a whole.
+    /// Its tests, or the reason for its failure as a whole.
     pub result: Result<Tally>,
-    /// How long it took.
+    /// Its duration.
     pub elapsed: Duration,
 }
 
