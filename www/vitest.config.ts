@@ -15,6 +15,8 @@ const browsers = {
 
 export default defineConfig({
   test: {
+    // All cores: by default one is left to whoever watches.
+    maxWorkers: "100%",
     projects: [
       { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },
       { test: { ...browsers, name: "e2e", include: ["e2e/*.test.ts"] } },
