@@ -365,6 +365,14 @@ impl Bins {
         })
     }
 
+    /// Finer bins: each of these divided into `parts`.
+    pub(crate) fn split(self, parts: usize) -> Self {
+        Self {
+            count: self.count * parts,
+            size_mm: self.size_mm / parts as f64,
+        }
+    }
+
     /// The bin, from 0, that contains the height `z_mm`. Heights below or above all bins belong to the first or last.
     #[inline]
     pub fn of(&self, z_mm: f64) -> usize {

@@ -158,13 +158,30 @@ impl Resin {
         self.time_s(&self.exposures_s(thickness_mm))
     }
 
+    /// The same of uniform layers on a first one of `first_mm`, if that is given.
+    pub fn uniform_time_s(&self, layers: usize, layer_mm: f64, first_mm: Option<f64>) -> f64 {
+        let bottoms = layers.min(self.bottom_layers);
+        let first_mm = first_mm.filter(|_| bottoms == 0 && layers > 0);
+        let others = layers - bottoms - usize::from(first_mm.is_some());
+        let [bottom_us, other_us, first_us] = [
+            self.bottom_exposure_s,
+            self.exposure_s(layer_mm),
+            self.exposure_s(first_mm.unwrap_or(layer_mm)),
+        ]
+        .map(|exposure_s| self.exposed_us(exposure_s));
+        let first_us = first_mm.map_or(0, |_| first_us);
+        (bottoms as u64 * bottom_us + others as u64 * other_us + first_us) as f64 / 1e6
+    }
+
     /// Total time of layers of these exposures, in seconds.
     pub fn time_s(&self, exposures_s: &[f64]) -> f64 {
-        let overhead_us = (self.overhead_s() * 1e6 + 0.5) as u64;
-        let layers_us = exposures_s
-            .iter()
-            .map(|exposure_s| (exposure_s * 1e6 + 0.5) as u64 + overhead_us);
+        let layers_us = exposures_s.iter().map(|&it| self.exposed_us(it));
         layers_us.sum::<u64>() as f64 / 1e6
+    }
+
+    /// Time of a layer of this exposure, in whole microseconds.
+    fn exposed_us(&self, exposure_s: f64) -> u64 {
+        (exposure_s * 1e6 + 0.5) as u64 + (self.overhead_s() * 1e6 + 0.5) as u64
     }
 }
 

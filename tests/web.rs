@@ -229,7 +229,7 @@ async fn check_plan_and_masks() {
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         fingerprint(&bytes)
     };
-    assert_eq!(archive(&mut slicer), 0xdc53_304a_afd0_e2cb);
+    assert_eq!(archive(&mut slicer), 0xef5b_8c2d_acb3_2438);
     let grey = Options {
         antialias: 4,
         printer: Some("sl1s".into()),

@@ -96,7 +96,7 @@ pub enum ArchiveError {
         format: Format,
         /// The formats that have several.
         others: [Format; 5],
-        /// The thickest uniform layers within tolerance, if any are.
+        /// The best uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
     },
     /// The printer takes one thickness for all layers, and the plan has several.
@@ -108,7 +108,7 @@ pub enum ArchiveError {
     PrinterUniformOnly {
         /// Make and model of the printer.
         model: String,
-        /// The thickest uniform layers within tolerance, if any are.
+        /// The best uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
     },
     /// The format is for slicers of filament printers: its files have no masks.
@@ -266,7 +266,7 @@ pub struct PrintJob<'a> {
     pub printer: Option<&'a Printer>,
     /// Draws the model, for previews.
     pub look: &'a dyn Fn() -> Look,
-    /// Finds the thickest uniform layers within tolerance.
+    /// Finds the best uniform layers within tolerance.
     pub best_uniform: &'a dyn Fn() -> Option<UniformLayers>,
     /// Makes an object that describes the whole job, for formats of our own.
     pub manifest: &'a dyn Fn() -> Result<Manifest, serde_json::Error>,

@@ -79,6 +79,11 @@ impl Planner {
             Self::Coarsest => "coarsest",
         }
     }
+
+    /// Whether thicknesses follow the surface.
+    pub(super) fn is_adaptive(self) -> bool {
+        matches!(self, Self::Optimal | Self::Greedy | Self::Local)
+    }
 }
 
 /// What the optimal planner minimizes.

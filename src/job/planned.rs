@@ -101,10 +101,13 @@ impl Planned {
         &self.models[0].measured
     }
 
-    /// The thickest uniform layers within tolerance, between the limits.
+    /// The best uniform layers within tolerance, by what the options minimize.
     pub fn best_uniform(&self) -> Option<UniformLayers> {
-        let parts = self.models.iter().map(PlannedModel::part).collect();
-        Planning::new(parts, &self.layering).best_uniform()
+        let best = self.findings.uniform.best(self.layering.minimize)?;
+        Some(UniformLayers {
+            layer_mm: best.layer_mm,
+            layers: best.layers,
+        })
     }
 
     /// The masks of a model by its index, as if it stood alone, seen from one side.

@@ -1,14 +1,17 @@
 //! What planners get of the models of a plan: errors, tolerance and snap planes; and what is known about a plan.
 
+use std::borrow::Cow;
+
 use super::measured::Measured;
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
-use super::{Error, Planner, PlannerReport, UniformReport};
+use super::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
 use crate::ldi::LdiError;
+use crate::order::ascending;
 use crate::plan::optimal::Objective;
 use crate::plan::preferred::{Price, SnapPlanes};
 use crate::plan::tradeoff::{self, TradeoffPoint};
-use crate::plan::uniform::UniformLayers;
+use crate::plan::uniform::layers_above;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
 use crate::profile::largest::Strictness;
 use crate::profile::shapes::Shapes;
@@ -16,6 +19,12 @@ use crate::profile::snap_planes::{Surface, snap_planes};
 use crate::profile::{LayerErrors, Metric, Source, area};
 use crate::progress::{Progress, silent};
 use crate::warning::Warning;
+
+/// Steps between thicknesses of uniform layers that people choose, where the motor has none of its own.
+const UNIFORM_STEP_MM: f64 = 0.001;
+
+/// The fraction that an adaptive plan must save to be worth more than uniform layers.
+const WORTHWHILE: f64 = 0.03;
 
 /// A model that a plan is made for, alone or with others.
 #[derive(Debug, Clone, Copy)]
@@ -276,20 +285,99 @@ impl<'a> Planning<'a> {
         uniform::plan(bins, self.height_mm, layer_mm, first_layer)
     }
 
-    pub(super) fn best_uniform(&self) -> Option<UniformLayers> {
-        let bins = self.errors().bins();
-        let limits = self.limits().ok()?;
-        let unit = limits.unit(bins).ok()?;
-        let range = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm);
-        let steps = self.errors().to_steps(limits.tolerance);
-        range.ok()?.rev().find_map(|units| {
-            let layer_mm = bins.boundary_mm(units * unit);
-            let plan = self.uniform(layer_mm).ok()?;
-            (plan.max_error_steps(self.errors()) <= steps).then(|| UniformLayers {
+    /// The fewest and the quickest uniform layers within a tolerance, of every thickness within the limits that the motor can make; without a motor step, of
+    /// every micrometre. The top counts: what is left above the last layer must be within the tolerance as well, and where errors are
+    /// distances, the top must be no farther from the model's.
+    fn uniform_within(&self, tolerance: f64) -> Result<[Option<BestUniform>; 2], PlanError> {
+        let resin = &self.layering.resin;
+        let limits = self.layering.limits(tolerance);
+        let parts = match limits.step_mm {
+            Some(_) => 1,
+            None => (self.errors().bins().size_mm / UNIFORM_STEP_MM + 0.5).max(1.0) as usize,
+        };
+        let errors = &*match parts {
+            1 => Cow::Borrowed(self.errors()),
+            _ => Cow::Owned(self.errors().split(parts)),
+        };
+        let bins = errors.bins();
+        let first_layer = limits.first_layer(bins)?;
+        let unit = limits.unit(bins)?;
+        let range = limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm)?;
+        let first_mm = (first_layer > 0).then(|| bins.boundary_mm(first_layer));
+        // Thickness, number of layers and print time.
+        let candidates = range.filter_map(|units| {
+            let thickness = units * unit;
+            let above = layers_above(bins, self.height_mm, f64::from(thickness), first_layer)?;
+            let layer_mm = bins.boundary_mm(thickness);
+            let layers = above as usize + usize::from(first_layer > 0);
+            Some((
+                layer_mm,
+                layers,
+                resin.uniform_time_s(layers, layer_mm, first_mm),
+            ))
+        });
+        let candidates: Vec<_> = candidates.collect();
+        let steps = errors.to_steps(tolerance);
+        let holds = |plan: &Plan| {
+            let top = plan.boundaries[plan.layers()];
+            let is_top_near = !self.layering.metric.is_distance()
+                || (bins.boundary_mm(top) - self.height_mm).abs() <= tolerance;
+            let end = bins.count as u32;
+            let mut layers = plan.covered().windows(2);
+            is_top_near
+                && (top >= end || errors.steps_between(top, end) <= steps)
+                && layers.all(|layer| errors.steps_between(layer[0], layer[1]) <= steps)
+        };
+        // The thinnest of as many layers comes first.
+        let best_by = |cost: fn(&(f64, usize, f64)) -> f64| {
+            let order = ascending(candidates.iter().map(cost)).into_iter();
+            let mut plans = order.filter_map(|place| {
+                let (layer_mm, _, print_time_s) = candidates[place];
+                let plan = uniform::plan(bins, self.height_mm, layer_mm, first_layer).ok()?;
+                Some((layer_mm, plan, print_time_s))
+            });
+            let (layer_mm, plan, print_time_s) = plans.find(|(_, plan, _)| holds(plan))?;
+            Some(BestUniform {
                 layer_mm,
                 layers: plan.layers(),
+                max_error: plan.max_error(errors),
+                print_time_s,
             })
-        })
+        };
+        let fewest = best_by(|&(_, layers, _)| layers as f64);
+        Ok([fewest, best_by(|&(_, _, print_time_s)| print_time_s)])
+    }
+
+    fn uniform_report(
+        &self,
+        [finest, coarsest]: [Planner; 2],
+        plan: &Plan,
+        tolerance: f64,
+    ) -> Result<UniformReport, PlanError> {
+        let Layering {
+            minimize,
+            planner,
+            resin,
+            ..
+        } = self.layering;
+        // Uniform layers may be planned without a valid range of thicknesses.
+        let [fewest, quickest] = self.uniform_within(tolerance).unwrap_or_default();
+        let mut report = UniformReport {
+            finest: self.row(finest)?,
+            coarsest: self.row(coarsest)?,
+            fewest,
+            quickest,
+            is_enough: false,
+        };
+        report.is_enough = planner.is_adaptive()
+            && report.best(*minimize).is_some_and(|best| {
+                let (own, uniform) = match minimize {
+                    Minimize::Layers => (plan.layers() as f64, best.layers as f64),
+                    Minimize::Time => (plan.print_time_s(resin), best.print_time_s),
+                };
+                own > uniform * (1.0 - WORTHWHILE)
+            });
+        Ok(report)
     }
 
     pub(super) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
@@ -315,10 +403,7 @@ impl<'a> Planning<'a> {
             _ => (Planner::Finest, Planner::Coarsest),
         };
         let bins = plan.bins;
-        let is_adaptive = matches!(
-            layering.planner,
-            Planner::Optimal | Planner::Greedy | Planner::Local
-        );
+        let is_adaptive = layering.planner.is_adaptive();
         let tolerance = match self.tolerance.clone() {
             Ok(tolerance) => tolerance,
             Err(error) if is_adaptive => return Err(error),
@@ -385,10 +470,7 @@ impl<'a> Planning<'a> {
             max_error_mm: unweighted(Metric::Cusp),
             max_deviation_mm,
             print_time_s: plan.print_time_s(&layering.resin),
-            uniform: UniformReport {
-                finest: self.row(finest)?,
-                coarsest: self.row(coarsest)?,
-            },
+            uniform: self.uniform_report([finest, coarsest], plan, tolerance)?,
             warnings,
         })
     }

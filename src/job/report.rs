@@ -9,7 +9,7 @@ use super::parts::{Filament, Output};
 use super::planned::{Planned, PlannedModel};
 use super::prepared::{Hollowed, Supported};
 use super::sampled::Sampled;
-use super::{Options, PlateReport};
+use super::{Minimize, Options, PlateReport};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
 use crate::format::Format;
@@ -229,15 +229,47 @@ impl Options {
     }
 }
 
-/// Uniform layers within the same range of thicknesses, for comparison.
+/// Uniform layers within the same range of thicknesses, for comparison. A saving is fair against `fewest` or `quickest`: of every
+/// thickness that the motor can make, the best that keeps the tolerance, the top of the model included.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct UniformReport {
     /// Layers of the minimum thickness.
     pub finest: PlannerReport,
     /// Layers of the maximum thickness.
     pub coarsest: PlannerReport,
+    /// The fewest uniform layers within tolerance; absent if no thickness keeps it.
+    pub fewest: Option<BestUniform>,
+    /// Those within tolerance that print in the shortest time.
+    pub quickest: Option<BestUniform>,
+    /// Whether an adaptive plan saves less than 3 % against the best of these, by what the options minimize.
+    pub is_enough: bool,
+}
+
+impl UniformReport {
+    /// The best uniform layers within tolerance by what the options minimize.
+    pub fn best(&self, minimize: Minimize) -> Option<&BestUniform> {
+        match minimize {
+            Minimize::Layers => self.fewest.as_ref(),
+            Minimize::Time => self.quickest.as_ref(),
+        }
+    }
+}
+
+/// The best uniform layers within tolerance.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+pub struct BestUniform {
+    /// Thickness of each in millimetres.
+    pub layer_mm: f64,
+    /// Their number.
+    pub layers: usize,
+    /// The largest error of a layer, in the metric's unit, from the source that plans are made from.
+    pub max_error: f64,
+    /// Print time.
+    pub print_time_s: f64,
 }
 
 /// The result of a planner.

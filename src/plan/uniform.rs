@@ -38,15 +38,13 @@ pub fn plan(
     first_layer: u32,
 ) -> Result<Plan, PlanError> {
     let thickness = thickness_in_bins(bins, layer_mm)?;
-    let above_mm = height_mm - bins.boundary_mm(first_layer);
-    if 0.5 * thickness * bins.size_mm >= above_mm {
+    let Some(layers) = layers_above(bins, height_mm, thickness, first_layer) else {
         return Err(PlanError::LayerTooThick {
             layer_mm,
             height_mm,
         });
-    }
-    let layers = (above_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
-    let (thickness, layers) = (thickness as u32, layers as u32);
+    };
+    let thickness = thickness as u32;
     let mut boundaries = vec![0];
     let first = u32::from(first_layer == 0);
     boundaries.extend((first..=layers).map(|layer| first_layer + layer * thickness));
@@ -56,6 +54,18 @@ pub fn plan(
         snap_planes: Vec::new(),
         exempt_layers: usize::from(first_layer > 0),
     })
+}
+
+/// Number of layers of `thickness` bins above the first layer, if the middle of one is below the top.
+pub(crate) fn layers_above(
+    bins: Bins,
+    height_mm: f64,
+    thickness: f64,
+    first_layer: u32,
+) -> Option<u32> {
+    let above_mm = height_mm - bins.boundary_mm(first_layer);
+    let layers = (above_mm / bins.size_mm / thickness - 0.5).ceil().max(1.0);
+    (0.5 * thickness * bins.size_mm < above_mm).then_some(layers as u32)
 }
 
 /// A layer thickness as a whole number of bins, which it must be.

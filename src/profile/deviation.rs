@@ -43,10 +43,14 @@ struct Level {
 /// Bins that a search for the nearest point of a path may leave out at once.
 const WINDOW: u32 = 32;
 
+/// The tangent of a flat among so many bins: farther than any layer is thick, so that no path leads past it.
+fn flat(bins: usize) -> f64 {
+    4.0 * bins as f64 + 4.0
+}
+
 impl Level {
     fn new(weight: f64, steepest: &[f32]) -> Self {
-        // Farther than any layer is thick, so that no path leads past a flat.
-        let flat = 4.0 * steepest.len() as f64 + 4.0;
+        let flat = flat(steepest.len());
         let tangents: Vec<f64> = steepest
             .iter()
             .map(|&square| {
@@ -60,6 +64,10 @@ impl Level {
                 }
             })
             .collect();
+        Self::of_tangents(weight, tangents)
+    }
+
+    fn of_tangents(weight: f64, tangents: Vec<f64>) -> Self {
         let mut sum = 0.0;
         let mut run = vec![sum];
         run.extend(tangents.iter().map(|tangent| {
@@ -73,6 +81,15 @@ impl Level {
             smallest_ahead: ahead(&tangents, |a, b| if b < a { b } else { a }),
             tangents,
         }
+    }
+
+    fn split(&self, parts: usize) -> Self {
+        let [was, is] = [1, parts].map(|parts| flat(self.tangents.len() * parts));
+        let tangents = self.tangents.iter().flat_map(|&tangent| {
+            let tangent = if tangent < was { tangent } else { is };
+            std::iter::repeat_n(tangent, parts)
+        });
+        Self::of_tangents(self.weight, tangents.collect())
     }
 
     /// T at a boundary. Above the model nothing is added.
@@ -194,6 +211,14 @@ impl DeviationError {
             levels: levels
                 .map(|(weight, steepest)| Level::new(f64::from(*weight), steepest))
                 .collect(),
+        }
+    }
+
+    /// The same in finer bins: see [`LayerErrors::split`](super::LayerErrors::split).
+    pub(super) fn split(&self, parts: usize) -> Self {
+        Self {
+            bins: self.bins.split(parts),
+            levels: self.levels.iter().map(|it| it.split(parts)).collect(),
         }
     }
 

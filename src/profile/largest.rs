@@ -92,6 +92,22 @@ impl LargestError {
         }
     }
 
+    /// The same in finer bins: see [`LayerErrors::split`].
+    pub(super) fn split(&self, parts: usize) -> Self {
+        let models = self.models.iter().map(|Share { errors, strictness }| {
+            let Strictness { own, of } = *strictness;
+            let strictness = match *strictness {
+                Strictness::NONE => Strictness::NONE,
+                _ => Strictness {
+                    own: own * parts as u64,
+                    of: of * parts as u64,
+                },
+            };
+            (errors.split(parts), strictness)
+        });
+        Self::new(models.collect())
+    }
+
     pub(super) fn tallest(&self) -> &LayerErrors {
         &self.models[self.tallest].errors
     }

@@ -78,6 +78,11 @@ impl Metric {
         matches!(self, Self::Area | Self::Volume)
     }
 
+    /// Whether its errors are distances of the print from the model.
+    pub fn is_distance(self) -> bool {
+        matches!(self, Self::Cusp | Self::Deviation | Self::Thread)
+    }
+
     /// The unit of its errors and tolerances; empty for a fraction.
     pub fn unit(self) -> &'static str {
         match self {
@@ -220,10 +225,35 @@ impl ErrorSum {
         self.steps_below(upper) - self.steps_below(lower)
     }
 
+    fn split(&self, parts: usize) -> Self {
+        let mut total = 0;
+        let mut sums = vec![total];
+        for pair in self.sums.windows(2) {
+            // A step is a part of a bin, so it becomes as much smaller as the bin.
+            let density = pair[1] - pair[0];
+            sums.extend((0..parts).map(|_| {
+                total += density;
+                total
+            }));
+        }
+        Self {
+            bins: self.bins.split(parts),
+            sums,
+        }
+    }
+
     /// The error of everything below a boundary, in steps. Above the last bin nothing is added.
     pub fn steps_below(&self, boundary: u32) -> u64 {
         self.sums[(boundary as usize).min(self.bins.count)]
     }
+}
+
+/// Each value as often as a bin has parts.
+fn repeated<T: Copy>(values: &[T], parts: usize) -> Vec<T> {
+    let values = values.iter();
+    values
+        .flat_map(|&it| std::iter::repeat_n(it, parts))
+        .collect()
 }
 
 /// The errors of layers as planners see them. They are whole steps, so every planner on every machine agrees on whether
@@ -248,6 +278,17 @@ impl LayerErrors {
             Self::Volume(errors) => errors.bins,
             Self::Deviation(errors) => errors.bins,
             Self::Largest(errors) => errors.bins(),
+        }
+    }
+
+    /// The same errors in finer bins, each bin divided into `parts` that have its density, shape or area.
+    #[must_use]
+    pub fn split(&self, parts: usize) -> Self {
+        match self {
+            Self::Sum(errors) => Self::Sum(errors.split(parts)),
+            Self::Volume(errors) => Self::Volume(errors.split(parts)),
+            Self::Deviation(errors) => Self::Deviation(errors.split(parts)),
+            Self::Largest(errors) => Self::Largest(errors.split(parts)),
         }
     }
 

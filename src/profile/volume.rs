@@ -4,6 +4,7 @@
 //! The error of a layer depends on where the layer begins, so there is no density to add up, and planners measure each
 //! layer. The volumes of the layer and the model bound the error, so it needs no cap.
 
+use super::repeated;
 use crate::grid::Bins;
 
 /// The default tolerance in mm³, unless the model needs more: see [`crate::job::Options::tolerance`].
@@ -42,6 +43,15 @@ impl VolumeError {
         Self {
             weights: weights.into_iter().map(parts).collect(),
             ..Self::new(areas_mm2, bins)
+        }
+    }
+
+    /// The same in finer bins: see [`LayerErrors::split`](super::LayerErrors::split).
+    pub(super) fn split(&self, parts: usize) -> Self {
+        Self {
+            bins: self.bins.split(parts),
+            areas: repeated(&self.areas, parts),
+            weights: repeated(&self.weights, parts),
         }
     }
 

@@ -34,7 +34,7 @@ fn a_model_and_its_print_file_may_go_through_pipes() {
         lines.map(str::to_owned).collect()
     };
     assert_eq!(words(&piped.stderr), words(&described));
-    assert_eq!(words(&piped.stderr).len(), 7);
+    assert_eq!(words(&piped.stderr).len(), 8);
 
     let report = json(&reading(
         &ball,

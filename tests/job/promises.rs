@@ -1,7 +1,7 @@
 //! What a plan guarantees: tolerances, targets and true heights, with warnings where it cannot.
 
 use crate::common::{assert_near, load, quiet, solids};
-use cusp_slicer::job::{Minimize, Options, Snap};
+use cusp_slicer::job::{Minimize, Options, Planner, Snap};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -220,4 +220,101 @@ fn the_cap_of_the_area_deviation_does_not_hide_a_shelf() {
     assert_near(hidden.true_error, 0.75, 1e-3);
     let at_shelf = plan(&mut slicer, &options(Snap::Auto)).unwrap();
     assert_near(at_shelf.true_error, 0.0, 1e-9);
+}
+
+/// A solid, the tolerance, and the fewest uniform layers: their number and their thickness in µm. Then whether they are enough.
+type UniformCase = (&'static str, solids::Triangles, f64, (usize, u32), bool);
+
+#[test]
+fn savings_are_against_the_best_uniform_layers_within_tolerance() {
+    let block = |height| [[-5.0, height], [-5.0, 0.0], [5.0, 0.0], [5.0, height]];
+    let gable = [
+        [-5.0, 10.0],
+        [-5.0, 0.0],
+        [5.0, 0.0],
+        [5.0, 10.0],
+        [0.0, 15.0],
+    ];
+    let roof = [[-5.0, 0.0], [5.0, 0.0], [0.0, 5.0]];
+    let cases: [UniformCase; 3] = [
+        // Walls keep any tolerance, the top does not: of up to 0.15 mm, 67 layers miss it by 0.07 mm or more, and 68 by so much unless
+        // they are 0.149 mm thick, when they miss it by 0.012 mm.
+        (
+            "block",
+            solids::profiled(&block(10.12), 8.0),
+            0.045,
+            (68, 149),
+            true,
+        ),
+        // At 45°, the cusp height is 0.707 of the thickness: 0.0516 mm for 0.073 mm, and 0.0523 mm for 0.074 mm. The floor, in a bin of 2 µm, adds 0.6 µm.
+        ("roof", solids::profiled(&roof, 8.0), 0.0525, (68, 73), true),
+        // The same roof decides about the thickness of all layers: 15 mm / 0.073 mm.
+        (
+            "house",
+            solids::profiled(&gable, 8.0),
+            0.0522,
+            (205, 73),
+            false,
+        ),
+    ];
+    for (name, solid, tolerance, (layers, thickness_um), is_enough) in cases {
+        let mut slicer = load(&solid);
+        let options = Options {
+            tolerance: Some(tolerance),
+            layer_min_mm: Some(0.03),
+            layer_max_mm: Some(0.15),
+            ..options()
+        };
+        let report = plan(&mut slicer, &options).unwrap();
+        let fewest = report.uniform.fewest.unwrap();
+        assert_eq!(fewest.layers, layers, "{name}");
+        assert_near(fewest.layer_mm, f64::from(thickness_um) * 1e-3, 1e-9);
+        assert_eq!(report.uniform.is_enough, is_enough, "{name}");
+        // One after the other, each in bins of its own.
+        let mut within = Vec::new();
+        for um in 30..=150 {
+            let uniform = Options {
+                planner: Planner::Uniform {
+                    layer_mm: f64::from(um) * 1e-3,
+                },
+                bin_mm: Some(0.001),
+                ..options.clone()
+            };
+            let uniform = plan(&mut slicer, &uniform).unwrap();
+            let top_mm = uniform.z_mm[uniform.layers];
+            if uniform.max_error <= tolerance && (top_mm - report.height_mm).abs() <= tolerance {
+                within.push((uniform.layers, uniform.print_time_s));
+            }
+        }
+        let fewest = within.iter().map(|&(layers, _)| layers).min();
+        let quickest = within.iter().map(|&(_, time_s)| time_s);
+        assert_eq!(fewest, Some(layers), "{name}");
+        let found_s = report.uniform.quickest.unwrap().print_time_s;
+        assert_near(found_s, quickest.fold(f64::INFINITY, f64::min), 1e-6);
+    }
+}
+
+#[test]
+fn where_no_uniform_layers_keep_the_tolerance_there_are_none_to_save_from() {
+    // No multiple of a thickness from 0.1 to 0.15 mm in whole steps of 0.01 mm is within 0.01 mm of 1.03 mm: those nearest are 9 × 0.11
+    // and 8 × 0.13 mm. Layers of several thicknesses are.
+    let mut slicer = load(&solids::cuboid(Vec3::new(4.0, 4.0, 1.03)));
+    let options = Options {
+        tolerance: Some(0.0099),
+        step_mm: Some(0.01),
+        layer_min_mm: Some(0.1),
+        layer_max_mm: Some(0.15),
+        ..options()
+    };
+    let report = plan(&mut slicer, &options).unwrap();
+    assert_eq!(
+        (report.uniform.fewest, report.uniform.quickest),
+        (None, None)
+    );
+    assert!(!report.uniform.is_enough && report.max_error <= report.tolerance);
+    let free = Options {
+        step_mm: None,
+        ..options
+    };
+    assert!(plan(&mut slicer, &free).unwrap().uniform.fewest.is_some());
 }

@@ -28,8 +28,8 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(text).toContain("ball.stl");
   expect(text).toContain("20.0 × 20.0 × 20.0 mm");
   expect(text).toContain("Watertight");
-  expect(text).toMatch(/\d+% fewer than uniform 0.05 mm \(400\), same tolerance/);
-  expect(text).toMatch(/Uniform 0.15 mm 13[34] \d+ min 0.1[45]\d* mm over tolerance/);
+  expect(text).toMatch(/\d+% fewer than the best uniform layers within tolerance/);
+  expect(text).toMatch(/Coarsest uniform, 0.15 mm 13[34] \d+ min 0.1[45]\d* mm over tolerance/);
   expect(text).toMatch(/\d+ layers about (\d+ h )?\d+ min to print/);
   const count = await layers(page);
   expect(count).toBeGreaterThan(134);

@@ -4,7 +4,10 @@ use std::fmt::Write as _;
 use std::path::Path;
 
 use cusp_slicer::filament::FilamentReport;
-use cusp_slicer::job::{Backend, Comparison, FrontPoint, Options, Report, Slicer, StageProgress};
+use cusp_slicer::job::{
+    Backend, BestUniform, Comparison, FrontPoint, Options, PlannerReport, Report, Slicer,
+    StageProgress,
+};
 use cusp_slicer::profile::Metric;
 use serde::Serialize;
 
@@ -193,11 +196,10 @@ fn describe_plan(report: &Report) -> String {
 /// A plan for a filament printer: what masks, exposures and resin mean nothing for, and what to set in the slicer.
 fn describe_filament(report: &Report, filament: &FilamentReport) -> String {
     let words = |error| report.metric.format(error);
-    let uniform = &report.uniform;
     let [thinnest, thickest] = thinnest_and_thickest(report);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
-         uniform   {} at minimum thickness (error {}), {} at maximum thickness (error {})\n\
+         uniform   {}\n\
          error     {} above the first layer, tolerance {}\n\
          deviation {} from the model at most\n\
          planes    {} at flats and sharp changes\n\
@@ -205,10 +207,7 @@ fn describe_filament(report: &Report, filament: &FilamentReport) -> String {
          slicer    {filament}",
         report.layers,
         report.height_mm,
-        uniform.finest.layers,
-        words(uniform.finest.max_error),
-        uniform.coarsest.layers,
-        words(uniform.coarsest.max_error),
+        describe_uniform(report),
         words(report.max_error),
         words(report.tolerance),
         Metric::Deviation.format(report.max_deviation_mm),
@@ -216,6 +215,40 @@ fn describe_filament(report: &Report, filament: &FilamentReport) -> String {
         report.hits,
         report.adapter.as_deref().unwrap_or("the CPU"),
         report.timings_ms.total,
+    )
+}
+
+/// Uniform layers: the best within tolerance and the change from them to the plan, and those of the thinnest and the thickest.
+fn describe_uniform(report: &Report) -> String {
+    let uniform = &report.uniform;
+    let best = match uniform.best(report.options.minimize) {
+        Some(BestUniform {
+            layers, layer_mm, ..
+        }) => {
+            let change = |own: f64, of: f64| format!("{:+.0} %", (own / of - 1.0) * 100.0);
+            let fewest = uniform.fewest.map_or(f64::NAN, |it| it.layers as f64);
+            let quickest = uniform.quickest.map_or(f64::NAN, |it| it.print_time_s);
+            format!(
+                "{layers} of {layer_mm:.3} mm at best within tolerance; this plan: {} layers, {} time{}",
+                change(report.layers as f64, fewest),
+                change(report.print_time_s, quickest),
+                if uniform.is_enough {
+                    format!(" (--planner uniform --layer {layer_mm:.3} does about as well)")
+                } else {
+                    String::new()
+                }
+            )
+        }
+        None => "none within tolerance".to_owned(),
+    };
+    let end = |it: &PlannerReport, name: &str| {
+        let error = report.metric.format(it.max_error);
+        format!("{} at {name} thickness (error {error})", it.layers)
+    };
+    format!(
+        "{best}\n          {}, {}",
+        end(&uniform.finest, "minimum"),
+        end(&uniform.coarsest, "maximum")
     )
 }
 
@@ -233,11 +266,10 @@ fn describe_resin(report: &Report) -> String {
         error if error == report.max_error => String::new(),
         error => format!(" ({} without weights and caps)", words(error)),
     };
-    let (finest, coarsest) = (&report.uniform.finest, &report.uniform.coarsest);
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
          time      {}, {:.1} ml of resin\n\
-         uniform   {} at minimum thickness (error {}), {} at maximum thickness (error {})\n\
+         uniform   {}\n\
          error     {} on the mesh{unweighted}, {} as sampled, tolerance {}\n\
          deviation {} from the model at most\n\
          planes    {} at flats and sharp changes\n\
@@ -247,10 +279,7 @@ fn describe_resin(report: &Report) -> String {
         report.height_mm,
         duration(report.print_time_s),
         report.resin_ml,
-        finest.layers,
-        words(finest.max_error),
-        coarsest.layers,
-        words(coarsest.max_error),
+        describe_uniform(report),
         words(report.max_error),
         words(report.sampled_error),
         words(report.tolerance),

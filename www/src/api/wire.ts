@@ -29,6 +29,7 @@ export type {
   Peel,
   Planner,
   PlannerReport,
+  BestUniform,
   PlateModelReport,
   PlateReport,
   PriceKind,

@@ -17,7 +17,7 @@ import {
 import { findingsPanel } from "./bound-findings.js";
 import { platePanel } from "./bound-plate.js";
 import type { Facts } from "./facts.js";
-import { modelCard, warnings } from "./panels/model-card.js";
+import { modelCard, uniformOffer, warnings } from "./panels/model-card.js";
 import { priceRow } from "./panels/price-row.js";
 import { hasPlace } from "./panels/settings-form.js";
 import { comparison, details, figures } from "./panels/summary.js";
@@ -135,7 +135,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
       ? html`<section class="card span first" part="plan" aria-label=${texts.plan.region}>
           ${earlierNote(drawn)}
           <div class="answer">
-            ${figures(result, session.shown ?? result.report, language)} ${priceRow(session.pricing.price, language)} ${downloadButton(drawn)} ${fileLine(drawn, result)}
+            ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${priceRow(session.pricing.price, language)} ${downloadButton(drawn)} ${fileLine(drawn, result)}
           </div>
           ${comparison(result, language)}
           ${panels.has("model") ? nothing : warnings(session, language, saveTowers)} ${details(result, language)}

@@ -16,7 +16,7 @@ import {
 import { isFilament } from "../api/wire.js";
 import { platePanel } from "../element/bound-plate.js";
 import type { Facts } from "../element/facts.js";
-import { modelCard, warnings } from "../element/panels/model-card.js";
+import { modelCard, uniformOffer, warnings } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
 import { comparison, details, figures } from "../element/panels/summary.js";
 import { layersPicture } from "../element/parts/layers-picture.js";
@@ -175,7 +175,7 @@ function plan(facts: Facts): TemplateResult {
   if (result === null) return noPlan(facts);
   return html`
     <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
-      ${figures(result, session.shown ?? result.report, language)} ${exposure(facts, result)}
+      ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${exposure(facts, result)}
     </div>
     ${downloadButton(facts)} ${fileLine(facts, result)} ${warnings(session, language, saveTowers)} ${comparison(result, language)}
     ${details(result, language)}

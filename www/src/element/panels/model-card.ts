@@ -5,7 +5,8 @@ import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
-import { advise } from "../state/advice.js";
+import { advise, allowed, bestUniform } from "../state/advice.js";
+import { enough } from "../state/comparison.js";
 import { ownHeight } from "../state/result.js";
 import type { Session } from "../state/session.js";
 
@@ -46,6 +47,13 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
       ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
     </div>`,
   );
+}
+
+/** A button for uniform layers, where they do about as well as the plan. */
+export function uniformOffer(session: Session, language: Language): TemplateResult | typeof nothing {
+  const best = session.result === null ? null : enough(session.result);
+  if (best === null) return nothing;
+  return html`${offerButtons(allowed([bestUniform(best, language)], session.fixed), (change) => session.change(change))}`;
 }
 
 /**

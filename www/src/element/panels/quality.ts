@@ -2,7 +2,8 @@
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../../api/wire.js";
-import { languageOf, type Language } from "../../texts/index.js";
+import { languageOf } from "../../texts/index.js";
+import { sentence } from "../state/comparison.js";
 import { notchOf, placeAmong, type Planned } from "../state/curve.js";
 import { METRICS } from "../state/metric.js";
 import type { Result } from "../state/result.js";
@@ -46,20 +47,6 @@ export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "
 function timesOf(points: readonly Planned[], report: Result["report"]): [number, number] {
   const times = [...points, report, report.uniform.finest, report.uniform.coarsest].map(({ print_time_s }) => print_time_s);
   return [Math.min(...times), Math.max(...times)];
-}
-
-/** What the plan gains over the finest uniform one, and at what cost, in a sentence. */
-export function gainWords({ report, limits }: Pick<Result, "report" | "limits">, { texts, format }: Language): string {
-  const { finest } = report.uniform;
-  const uniform = format.fine(limits[0]);
-  const saved = 1 - report.print_time_s / finest.print_time_s;
-  if (saved < 0.005) return texts.quality.none(uniform);
-  const part = format.percent(saved);
-  const error = (value: number): string => METRICS[report.metric].error(value, format);
-  // Errors that read the same count as the same.
-  const isSame = report.max_error <= finest.max_error || error(report.max_error) === error(finest.max_error);
-  if (isSame) return texts.quality.same(part, uniform);
-  return texts.quality.near(part, uniform, texts.metrics[report.metric].subject, error(report.max_error), error(finest.max_error));
 }
 
 const PROPERTIES = {
@@ -241,7 +228,7 @@ export class CuspQuality extends elementWith(PROPERTIES) {
       <h3>${words.title}</h3>
       <span class="quiet figures">${said}</span>
     </div>`;
-    const gain = html`<p class="gain">${gainWords(result, language)}</p>`;
+    const gain = html`<p class="gain">${sentence(result, language, "time")}</p>`;
     if (points.length === 1) return html`${head} ${gain} <p class="single quiet">${words.single}</p>`;
     const { dots, own, finest, coarsest } = pictureOf(points, result);
     return html`

@@ -1,4 +1,4 @@
-/** A result in figures: layers, print time, what that saves, and the two uniform plans to compare. */
+/** A result in figures: layers, print time, what that saves, and the uniform layers to compare. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
@@ -181,7 +181,7 @@ export function figures(result: Result, shown: Pick<Shown, "layers" | "print_tim
   </div>`;
 }
 
-/** The plan between the two uniform ones that it is compared with. */
+/** The plan between the uniform layers that it is compared with. */
 export function comparison(result: Result, { texts, format }: Language): TemplateResult {
   const { report } = result;
   const compared = rows(result);
@@ -202,8 +202,8 @@ export function comparison(result: Result, { texts, format }: Language): Templat
       </thead>
       <tbody>
         ${compared.map(
-          ({ uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${uniform_mm === null ? "own" : ""}>
-            <th scope="row">${uniform_mm === null ? texts.plan.own : texts.plan.uniform(format.fine(uniform_mm))}</th>
+          ({ kind, uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${kind}>
+            <th scope="row">${kind === "own" || uniform_mm === null ? texts.plan.own : texts.plan[kind](format.fine(uniform_mm))}</th>
             <td class="number">${format.count(layers)}</td>
             <td class="bar" aria-hidden="true"><div ${styled({ width: `${(100 * layers) / most}%` })}></div></td>
             ${isResin ? html`<td class="number">${format.time(print_time_s)}</td>` : nothing}

@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
 import type { Options, Report } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { rows, sentence as sentenceIn, type Compared } from "./comparison.js";
-import { report, uniform } from "./report-fixture.js";
+import { enough, rows, sentence as sentenceIn, type Compared } from "./comparison.js";
+import { report, uniforms } from "./report-fixture.js";
 
 const sentence = (compared: Compared): string => sentenceIn(compared, languageOf("en"));
 
@@ -10,27 +10,38 @@ const limits = [0.05, 0.15] as const;
 
 const compared = (patch: Partial<Report>, options: Options = {}): Compared => ({ report: report(patch), limits, options });
 
-test("the gain over the finest uniform plan, in layers or in time", () => {
-  expect(sentence(compared({}))).toBe("34% fewer than uniform 0.05\u00a0mm (1,200), same tolerance.");
-  expect(sentence(compared({}, { minimize: "time" }))).toBe(
-    "32% less time than uniform 0.05\u00a0mm (3\u00a0h\u00a040\u00a0min), same tolerance.",
-  );
+test("the gain over the best uniform layers within tolerance, in layers or in time", () => {
+  expect(sentence(compared({}))).toBe("14% fewer than the best uniform layers within tolerance (923 of 0.065\u00a0mm).");
+  const inTime = "12% less time than the quickest uniform layers within tolerance (0.065\u00a0mm, 2\u00a0h\u00a050\u00a0min).";
+  expect(sentence(compared({}, { minimize: "time" }))).toBe(inTime);
+  expect(sentenceIn(compared({}), languageOf("en"), "time")).toBe(inTime);
 });
 
-test("a plan that gains nothing says so", () => {
-  expect(sentence(compared({ layers: 1200 }))).toMatch(/^As many as uniform 0.05/);
-  expect(sentence(compared({ print_time_s: 13_200 }, { minimize: "time" }))).toMatch(/^As slow as uniform 0.05/);
+test("where uniform layers are enough, the sentence says so, and they are offered", () => {
+  const cube = compared({ layers: 915, uniform: uniforms({ is_enough: true }) });
+  expect(sentence(cube)).toMatch(/^Uniform layers of 0.065\u00a0mm \(923\) do about as well within 0.065/);
+  expect(enough(cube)?.layers).toBe(923);
+  expect(enough(compared({}))).toBeNull();
+  // More layers than uniform ones, as flats cost some.
+  expect(sentenceIn(compared({ print_time_s: 10_300 }), languageOf("en"), "time")).toMatch(/^Uniform layers of 0.065/);
 });
 
-test("a plan as short as the coarsest uniform plan, if that keeps the tolerance", () => {
-  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(400, 0.03, 5_538) };
-  expect(sentence(compared({ layers: 400, uniform: both }))).toMatch(/^As few as uniform 0.15/);
-  expect(sentence(compared({ print_time_s: 5_538, uniform: both }, { minimize: "time" }))).toMatch(/^As quick as uniform 0.15/);
+test("where no uniform layers keep the tolerance, the sentence says so", () => {
+  const alone = compared({ uniform: uniforms({ fewest: null, quickest: null }) });
+  expect(sentence(alone)).toBe("No uniform layers from 0.05\u00a0mm to 0.15\u00a0mm stay within 0.065\u00a0mm; these do.");
+  expect(rows(alone).map(({ kind }) => kind)).toEqual(["finest", "own", "coarsest"]);
 });
 
-test("a plan longer than a coarsest uniform plan that keeps the tolerance too says so", () => {
-  const both = { finest: uniform(1200, 0.01, 13_200), coarsest: uniform(792, 0.03, 5_538) };
-  expect(sentence(compared({ uniform: both }))).toMatch(/^34% fewer than .*, but uniform 0.15\u00a0mm keeps the tolerance as well\.$/);
+test("the best uniform layers have a row of their own, or that of the end that they are", () => {
+  expect(rows(compared({})).map(({ kind, uniform_mm }) => [kind, uniform_mm])).toEqual([
+    ["finest", 0.05],
+    ["best", 0.065],
+    ["own", null],
+    ["coarsest", 0.15],
+  ]);
+  const coarsest = { layer_mm: 0.15, layers: 400, max_error: 0.03, print_time_s: 5_538 };
+  const steep = compared({ uniform: uniforms({ fewest: coarsest }) });
+  expect(rows(steep).map(({ kind }) => kind)).toEqual(["finest", "best", "own"]);
 });
 
 test("a uniform plan over the tolerance says by how much, in the unit of its metric", () => {
@@ -41,5 +52,5 @@ test("a uniform plan over the tolerance says by how much, in the unit of its met
 });
 
 test("the coarsest row is over the tolerance; rounding of sums does not count as over", () => {
-  expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, false]);
+  expect(rows(compared({ max_error: 0.0650000001 })).map(({ holds }) => holds)).toEqual([true, true, true, false]);
 });

@@ -1,5 +1,5 @@
-/** Compares the plan with two uniform plans, as rows and as one sentence. */
-import type { Report } from "../../api/wire.js";
+/** Compares the plan with uniform layers, as rows and as one sentence. */
+import type { Minimize, Report, BestUniform } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./result.js";
@@ -7,8 +7,12 @@ import type { Result } from "./result.js";
 /** What is compared: a result without its profile. */
 export type Compared = Pick<Result, "report" | "limits" | "options">;
 
+/** The plan itself, or uniform layers: the best within tolerance, or those at an end of the range of thicknesses. */
+export type Kind = "own" | "best" | "finest" | "coarsest";
+
 export interface Row {
-  /** Thickness of a uniform plan in mm; null for the plan itself. */
+  kind: Kind;
+  /** Thickness of uniform layers in mm; null for the plan itself. */
   uniform_mm: number | null;
   layers: number;
   print_time_s: number;
@@ -21,32 +25,49 @@ export interface Row {
 /** Allowance for rounding in a sum of bins, as a fraction of the tolerance. */
 const SLACK = 1e-6;
 
-/** Finest uniform plan, this plan, coarsest uniform plan. */
-export function rows({ report, limits }: Compared): [Row, Row, Row] {
-  const row = (uniform_mm: number | null, figures: Pick<Report, "layers" | "print_time_s" | "max_error">): Row => {
+const holds = (report: Report, max_error: number): boolean => max_error <= report.tolerance * (1 + SLACK);
+
+const minimized = ({ options }: Pick<Compared, "options">): Minimize => options.minimize ?? "layers";
+
+/** The best uniform layers within tolerance, if there are any. */
+const bestBy = ({ report }: Pick<Compared, "report">, by: Minimize): BestUniform | null =>
+  (by === "time" ? report.uniform.quickest : report.uniform.fewest) ?? null;
+
+/** The plan between uniform layers, from thin ones to thick ones; the best within tolerance replace an end that they are. */
+export function rows(compared: Compared): Row[] {
+  const { report, limits } = compared;
+  const row = (kind: Kind, uniform_mm: number | null, figures: Pick<Report, "layers" | "print_time_s" | "max_error">): Row => {
     const { layers, print_time_s, max_error } = figures;
-    return { uniform_mm, layers, print_time_s, max_error, holds: max_error <= report.tolerance * (1 + SLACK) };
+    return { kind, uniform_mm, layers, print_time_s, max_error, holds: holds(report, max_error) };
   };
   const { finest, coarsest } = report.uniform;
-  return [row(limits[0], finest), row(null, report), row(limits[1], coarsest)];
+  const best = report.planner === "uniform" ? null : bestBy(compared, minimized(compared));
+  const isBest = ({ layers, print_time_s }: Pick<Report, "layers" | "print_time_s">): boolean =>
+    best !== null && layers === best.layers && print_time_s === best.print_time_s;
+  return [
+    ...(isBest(finest) ? [] : [row("finest", limits[0], finest)]),
+    ...(best === null ? [] : [row("best", best.layer_mm, best)]),
+    row("own", null, report),
+    ...(isBest(coarsest) ? [] : [row("coarsest", limits[1], coarsest)]),
+  ];
 }
 
-/** What the plan gains, in a sentence. */
-export function sentence(compared: Compared, { texts: { gain, metrics }, format }: Language): string {
-  const { report, options, limits } = compared;
-  const [finest, own, coarsest] = rows(compared);
-  const error = (value: number): string => METRICS[report.metric].error(value, format);
-  const tolerance = error(report.tolerance);
+/** Uniform layers that do about as well as the plan, if some do. */
+export const enough = (compared: Compared): BestUniform | null =>
+  compared.report.uniform.is_enough ? bestBy(compared, minimized(compared)) : null;
 
-  if (!own.holds) return gain.over(metrics[report.metric].subject, error(own.max_error), tolerance);
-  if (report.planner === "uniform") return gain.isUniform(tolerance);
-  const by = options.minimize ?? "layers";
-  const of = ({ layers, print_time_s }: Row): number => (by === "time" ? print_time_s : layers);
-  const [thin, thick] = limits.map((mm) => format.fine(mm)) as [string, string];
-  if (of(own) <= of(coarsest) && coarsest.holds) return gain.coarsest[by](thick, tolerance);
-  const figure = by === "time" ? format.time(finest.print_time_s) : format.count(finest.layers);
-  if (of(own) >= of(finest)) return gain.nothing[by](thin, figure);
-  const saved = gain.saved[by](format.percent(1 - of(own) / of(finest)), thin, figure);
-  if (coarsest.holds) return gain.coarsestToo(saved, thick);
-  return finest.holds ? gain.sameTolerance(saved) : gain.onlyThis(saved);
+/** What the plan gains over the best uniform layers within the same tolerance, in a sentence. */
+export function sentence(compared: Compared, { texts: { gain, metrics }, format }: Language, by = minimized(compared)): string {
+  const { report, limits } = compared;
+  const error = (value: number): string => METRICS[report.metric].error(value, format);
+  if (!holds(report, report.max_error)) return gain.over(metrics[report.metric].subject, error(report.max_error), error(report.tolerance));
+  if (report.planner === "uniform") return gain.isUniform(error(report.tolerance));
+  const best = bestBy(compared, by);
+  if (best === null) return gain.none(format.fine(limits[0]), format.fine(limits[1]), error(report.tolerance));
+  const of = ({ layers, print_time_s }: Pick<Report, "layers" | "print_time_s">): number => (by === "time" ? print_time_s : layers);
+  const saved = 1 - of(report) / of(best);
+  const figure = by === "time" ? format.time(best.print_time_s) : format.count(best.layers);
+  const isLittle = saved < 0.005 || (by === minimized(compared) && report.uniform.is_enough);
+  if (isLittle) return gain.little(format.fine(best.layer_mm), figure, error(report.tolerance));
+  return gain.saved[by](format.percent(saved), format.fine(best.layer_mm), figure);
 }

@@ -1,11 +1,23 @@
 /** A report in which tests override the fields that they check. */
-import type { PlannerReport, Report } from "../../api/wire.js";
+import type { PlannerReport, Report, BestUniform } from "../../api/wire.js";
 
 export const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({
   planner: "uniform",
   layers,
   max_error,
   print_time_s,
+});
+
+/** Uniform layers within the tolerance of the report. */
+const within: BestUniform = { layer_mm: 0.065, layers: 923, max_error: 0.065, print_time_s: 10_200 };
+
+export const uniforms = (patch: Partial<Report["uniform"]> = {}): Report["uniform"] => ({
+  finest: uniform(1200, 0.05, 13_200),
+  coarsest: uniform(400, 0.15, 5_538),
+  fewest: within,
+  quickest: within,
+  is_enough: false,
+  ...patch,
 });
 
 export function report(patch: Partial<Report>): Report {
@@ -38,7 +50,7 @@ export function report(patch: Partial<Report>): Report {
     facets: 69_451,
     weights_crc32: null,
     hits: 5_218_540,
-    uniform: { finest: uniform(1200, 0.05, 13_200), coarsest: uniform(400, 0.15, 5_538) },
+    uniform: uniforms(),
     exposure_s: [],
     overhead_s: 7.6,
     resin: {},

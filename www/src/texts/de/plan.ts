@@ -18,7 +18,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     make: "Schichten planen",
     said: (count, time) => `${counted(count, LAYERS)} geplant, etwa ${time} Druckzeit.`,
     columns: { plan: "Plan", layers: "Schichten", time: "Zeit" },
-    uniform: (thickness) => `Gleichmäßig ${thickness}`,
+    best: (thickness) => `Beste gleichmäßige, ${thickness}`,
+    finest: (thickness) => `Feinste gleichmäßige, ${thickness}`,
+    coarsest: (thickness) => `Gröbste gleichmäßige, ${thickness}`,
     own: "Dieser Plan",
     within: "innerhalb der Toleranz",
     over: "über der Toleranz",
@@ -59,23 +61,12 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   gain: {
     over: (subject, error, tolerance) => `${subject} beträgt ${error}, mehr als die erlaubten ${tolerance}.`,
     isUniform: (tolerance) => `Gleichmäßige Schichten, überall innerhalb von ${tolerance}. Adaptiv reichen vielleicht weniger.`,
-    coarsest: {
-      layers: (uniform, tolerance) => `So wenige wie gleichmäßig ${uniform}, und überall innerhalb von ${tolerance}.`,
-      time: (uniform, tolerance) => `So schnell wie gleichmäßig ${uniform}, und überall innerhalb von ${tolerance}.`,
-    },
-    nothing: {
-      layers: (uniform, figure) =>
-        `So viele wie gleichmäßig ${uniform} (${figure}): diese Toleranz lässt keinen Raum für dickere Schichten.`,
-      time: (uniform, figure) =>
-        `So langsam wie gleichmäßig ${uniform} (${figure}): diese Toleranz lässt keinen Raum für dickere Schichten.`,
-    },
+    none: (thin, thick, tolerance) => `Keine gleichmäßigen Schichten von ${thin} bis ${thick} bleiben innerhalb von ${tolerance}; diese ja.`,
+    little: (uniform, figure, tolerance) => `Gleichmäßige Schichten von ${uniform} (${figure}) sind innerhalb von ${tolerance} etwa ebenso gut.`,
     saved: {
-      layers: (part, uniform, figure) => `${part} weniger als gleichmäßig ${uniform} (${figure})`,
-      time: (part, uniform, figure) => `${part} weniger Zeit als gleichmäßig ${uniform} (${figure})`,
+      layers: (part, uniform, figure) => `${part} weniger als die besten gleichmäßigen Schichten innerhalb der Toleranz (${figure} zu ${uniform}).`,
+      time: (part, uniform, figure) => `${part} weniger Zeit als die schnellsten gleichmäßigen Schichten innerhalb der Toleranz (${uniform}, ${figure}).`,
     },
-    sameTolerance: (saved) => `${saved}, bei gleicher Toleranz.`,
-    onlyThis: (saved) => `${saved}, und die Toleranz gilt auch dort, wo sie bei jenen nicht gilt.`,
-    coarsestToo: (saved, uniform) => `${saved}, aber gleichmäßig ${uniform} hält die Toleranz ebenfalls ein.`,
   },
   quality: {
     title: "Qualität",
@@ -88,10 +79,6 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     points: "Der schnellste Plan je Qualität",
     finest: (uniform, time) => `Gleichmäßig ${uniform}, am feinsten: ${time}`,
     coarsest: (uniform, time) => `Gleichmäßig ${uniform}, am gröbsten: ${time}`,
-    same: (part, uniform) => `Dieselbe Qualität wie gleichmäßig ${uniform}, ${part} weniger Zeit.`,
-    near: (part, uniform, subject, error, finest) =>
-      `${part} weniger Zeit als gleichmäßig ${uniform}. ${subject} beträgt ${error} statt ${finest}.`,
-    none: (uniform) => `So langsam wie gleichmäßig ${uniform}. Ziehen Sie den Regler für dickere Schichten nach links.`,
     single: "Jede Qualität ergibt für dieses Modell dieselben Schichten.",
   },
   details: {

@@ -20,7 +20,9 @@ export const plan = ({ counted, plural, size }: Format) => ({
     said: (count: number, time: string) =>
       `${counted(count, LAYERS)} planned, about ${time} to print.`,
     columns: { plan: "Plan", layers: "Layers", time: "Time" },
-    uniform: (thickness: string) => `Uniform ${thickness}`,
+    best: (thickness: string) => `Best uniform, ${thickness}`,
+    finest: (thickness: string) => `Finest uniform, ${thickness}`,
+    coarsest: (thickness: string) => `Coarsest uniform, ${thickness}`,
     own: "This plan",
     within: "within tolerance",
     over: "over tolerance",
@@ -61,27 +63,17 @@ export const plan = ({ counted, plural, size }: Format) => ({
       `Two small towers to measure with a caliper. If they are ${size(0.5)} and ${size(1.5)}\u00a0mm high, the printer takes a ` +
       `thickness for each layer; if ${size(0.5)} and ${size(1)}\u00a0mm, or ${size(1)} and ${size(2)}\u00a0mm, it takes one for all.`,
   },
-  /** What the plan gains over uniform plans; `uniform` is a thickness, `figure` a number of layers or a time. */
+  /** What the plan gains over the best uniform layers within tolerance; `uniform` is their thickness, `figure` their number or time. */
   gain: {
     over: (subject: string, error: string, tolerance: string) => `${subject} is ${error}, more than the ${tolerance} allowed.`,
     isUniform: (tolerance: string) => `Uniform layers, within ${tolerance} all the way up. Adaptive ones may need fewer.`,
-    coarsest: {
-      layers: (uniform: string, tolerance: string) => `As few as uniform ${uniform}, and within ${tolerance} all the way up.`,
-      time: (uniform: string, tolerance: string) => `As quick as uniform ${uniform}, and within ${tolerance} all the way up.`,
-    },
-    nothing: {
-      layers: (uniform: string, figure: string) =>
-        `As many as uniform ${uniform} (${figure}): this tolerance leaves no room for thicker layers.`,
-      time: (uniform: string, figure: string) =>
-        `As slow as uniform ${uniform} (${figure}): this tolerance leaves no room for thicker layers.`,
-    },
+    none: (thin: string, thick: string, tolerance: string) => `No uniform layers from ${thin} to ${thick} stay within ${tolerance}; these do.`,
+    little: (uniform: string, figure: string, tolerance: string) => `Uniform layers of ${uniform} (${figure}) do about as well within ${tolerance}.`,
     saved: {
-      layers: (part: string, uniform: string, figure: string) => `${part} fewer than uniform ${uniform} (${figure})`,
-      time: (part: string, uniform: string, figure: string) => `${part} less time than uniform ${uniform} (${figure})`,
+      layers: (part: string, uniform: string, figure: string) => `${part} fewer than the best uniform layers within tolerance (${figure} of ${uniform}).`,
+      time: (part: string, uniform: string, figure: string) =>
+        `${part} less time than the quickest uniform layers within tolerance (${uniform}, ${figure}).`,
     },
-    sameTolerance: (saved: string) => `${saved}, same tolerance.`,
-    onlyThis: (saved: string) => `${saved}, and it keeps the tolerance where that does not.`,
-    coarsestToo: (saved: string, uniform: string) => `${saved}, but uniform ${uniform} keeps the tolerance as well.`,
   },
   quality: {
     title: "Quality",
@@ -95,10 +87,6 @@ export const plan = ({ counted, plural, size }: Format) => ({
     points: "The quickest plan at each quality",
     finest: (uniform: string, time: string) => `Uniform ${uniform}, the finest: ${time}`,
     coarsest: (uniform: string, time: string) => `Uniform ${uniform}, the coarsest: ${time}`,
-    same: (part: string, uniform: string) => `Same quality as uniform ${uniform}, ${part} less time.`,
-    near: (part: string, uniform: string, subject: string, error: string, finest: string) =>
-      `${part} less time than uniform ${uniform}. ${subject} is ${error} instead of ${finest}.`,
-    none: (uniform: string) => `As slow as uniform ${uniform}. Move the slider to the left for thicker layers.`,
     single: "Every quality gives this model the same layers.",
   },
   details: {

@@ -18,7 +18,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     make: "Planificar las capas",
     said: (count, time) => `${counted(count, LAYERS)} planificadas, unos ${time} de impresión.`,
     columns: { plan: "Plan", layers: "Capas", time: "Tiempo" },
-    uniform: (thickness) => `Uniforme ${thickness}`,
+    best: (thickness) => `Mejor uniforme, ${thickness}`,
+    finest: (thickness) => `Uniforme más fino, ${thickness}`,
+    coarsest: (thickness) => `Uniforme más grueso, ${thickness}`,
     own: "Este plan",
     within: "dentro de la tolerancia",
     over: "fuera de la tolerancia",
@@ -59,23 +61,12 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   gain: {
     over: (subject, error, tolerance) => `${subject} es de ${error}, más que los ${tolerance} permitidos.`,
     isUniform: (tolerance) => `Capas uniformes, siempre dentro de ${tolerance}. Con adaptativas quizá basten menos.`,
-    coarsest: {
-      layers: (uniform, tolerance) => `Tan pocas como uniforme ${uniform}, y siempre dentro de ${tolerance}.`,
-      time: (uniform, tolerance) => `Tan rápido como uniforme ${uniform}, y siempre dentro de ${tolerance}.`,
-    },
-    nothing: {
-      layers: (uniform, figure) =>
-        `Tantas como uniforme ${uniform} (${figure}): esta tolerancia no deja sitio a capas más gruesas.`,
-      time: (uniform, figure) =>
-        `Tan lento como uniforme ${uniform} (${figure}): esta tolerancia no deja sitio a capas más gruesas.`,
-    },
+    none: (thin, thick, tolerance) => `Ninguna capa uniforme de ${thin} a ${thick} se mantiene dentro de ${tolerance}; estas sí.`,
+    little: (uniform, figure, tolerance) => `Capas uniformes de ${uniform} (${figure}) son casi igual de buenas dentro de ${tolerance}.`,
     saved: {
-      layers: (part, uniform, figure) => `${part} menos que uniforme ${uniform} (${figure})`,
-      time: (part, uniform, figure) => `${part} menos de tiempo que uniforme ${uniform} (${figure})`,
+      layers: (part, uniform, figure) => `${part} menos que las mejores capas uniformes dentro de la tolerancia (${figure} de ${uniform}).`,
+      time: (part, uniform, figure) => `${part} menos de tiempo que las capas uniformes más rápidas dentro de la tolerancia (${uniform}, ${figure}).`,
     },
-    sameTolerance: (saved) => `${saved}, con la misma tolerancia.`,
-    onlyThis: (saved) => `${saved}, y respeta la tolerancia donde aquel no lo hace.`,
-    coarsestToo: (saved, uniform) => `${saved}, pero uniforme ${uniform} también respeta la tolerancia.`,
   },
   quality: {
     title: "Calidad",
@@ -88,10 +79,6 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     points: "El plan más rápido para cada calidad",
     finest: (uniform, time) => `Uniforme ${uniform}, el más fino: ${time}`,
     coarsest: (uniform, time) => `Uniforme ${uniform}, el más grueso: ${time}`,
-    same: (part, uniform) => `La misma calidad que uniforme ${uniform}, ${part} menos de tiempo.`,
-    near: (part, uniform, subject, error, finest) =>
-      `${part} menos de tiempo que uniforme ${uniform}. ${subject} es de ${error} en vez de ${finest}.`,
-    none: (uniform) => `Tan lento como uniforme ${uniform}. Mueva el control a la izquierda para capas más gruesas.`,
     single: "Este modelo tiene las mismas capas con cualquier calidad.",
   },
   details: {

@@ -18,7 +18,9 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     make: "Planifier les couches",
     said: (count, time) => `${counted(count, LAYERS)}, environ ${time} d’impression.`,
     columns: { plan: "Plan", layers: "Couches", time: "Durée" },
-    uniform: (thickness) => `Uniforme ${thickness}`,
+    best: (thickness) => `Meilleur uniforme, ${thickness}`,
+    finest: (thickness) => `Uniforme le plus fin, ${thickness}`,
+    coarsest: (thickness) => `Uniforme le plus épais, ${thickness}`,
     own: "Ce plan",
     within: "dans la tolérance",
     over: "hors tolérance",
@@ -59,23 +61,12 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
   gain: {
     over: (subject, error, tolerance) => `${subject} est de ${error}, plus que les ${tolerance} permis.`,
     isUniform: (tolerance) => `Couches uniformes, partout à ${tolerance} près. Adaptatives, il en faudrait peut-être moins.`,
-    coarsest: {
-      layers: (uniform, tolerance) => `Aussi peu qu’uniforme ${uniform}, et partout à ${tolerance} près.`,
-      time: (uniform, tolerance) => `Aussi rapide qu’uniforme ${uniform}, et partout à ${tolerance} près.`,
-    },
-    nothing: {
-      layers: (uniform, figure) =>
-        `Autant qu’uniforme ${uniform} (${figure}) : cette tolérance ne laisse pas de place à des couches plus épaisses.`,
-      time: (uniform, figure) =>
-        `Aussi lent qu’uniforme ${uniform} (${figure}) : cette tolérance ne laisse pas de place à des couches plus épaisses.`,
-    },
+    none: (thin, thick, tolerance) => `Aucune couche uniforme de ${thin} à ${thick} ne respecte ${tolerance} ; celles-ci, si.`,
+    little: (uniform, figure, tolerance) => `Des couches uniformes de ${uniform} (${figure}) font à peu près aussi bien, à ${tolerance} près.`,
     saved: {
-      layers: (part, uniform, figure) => `${part} de moins qu’uniforme ${uniform} (${figure})`,
-      time: (part, uniform, figure) => `${part} de temps en moins qu’uniforme ${uniform} (${figure})`,
+      layers: (part, uniform, figure) => `${part} de moins que les meilleures couches uniformes dans la tolérance (${figure} de ${uniform}).`,
+      time: (part, uniform, figure) => `${part} de temps en moins que les couches uniformes les plus rapides dans la tolérance (${uniform}, ${figure}).`,
     },
-    sameTolerance: (saved) => `${saved}, à tolérance égale.`,
-    onlyThis: (saved) => `${saved}, et il respecte la tolérance là où celui-ci ne le fait pas.`,
-    coarsestToo: (saved, uniform) => `${saved}, mais uniforme ${uniform} respecte aussi la tolérance.`,
   },
   quality: {
     title: "Qualité",
@@ -88,10 +79,6 @@ export const plan = ({ counted, plural, size }: Format): PlanTexts => ({
     points: "Le plan le plus rapide pour chaque qualité",
     finest: (uniform, time) => `Uniforme ${uniform}, le plus fin : ${time}`,
     coarsest: (uniform, time) => `Uniforme ${uniform}, le plus grossier : ${time}`,
-    same: (part, uniform) => `La même qualité qu’uniforme ${uniform}, ${part} de temps en moins.`,
-    near: (part, uniform, subject, error, finest) =>
-      `${part} de temps en moins qu’uniforme ${uniform}. ${subject} est de ${error} au lieu de ${finest}.`,
-    none: (uniform) => `Aussi lent qu’uniforme ${uniform}. Glissez le curseur vers la gauche pour des couches plus épaisses.`,
     single: "Ce modèle a les mêmes couches, quelle que soit la qualité.",
   },
   details: {

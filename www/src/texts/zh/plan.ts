@@ -17,7 +17,9 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     make: "计算分层",
     said: (count, time) => `已规划 ${number(count)} 层，打印约 ${time}。`,
     columns: { plan: "方案", layers: "层数", time: "时间" },
-    uniform: (thickness) => `均匀 ${thickness}`,
+    best: (thickness) => `最佳均匀 ${thickness}`,
+    finest: (thickness) => `最细均匀 ${thickness}`,
+    coarsest: (thickness) => `最粗均匀 ${thickness}`,
     own: "本方案",
     within: "在公差内",
     over: "超出公差",
@@ -58,21 +60,12 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
   gain: {
     over: (subject, error, tolerance) => `${subject}为 ${error}，超过允许的 ${tolerance}。`,
     isUniform: (tolerance) => `均匀分层，全高在 ${tolerance} 以内。自适应分层可能需要更少的层。`,
-    coarsest: {
-      layers: (uniform, tolerance) => `与均匀 ${uniform} 一样少，且全高在 ${tolerance} 以内。`,
-      time: (uniform, tolerance) => `与均匀 ${uniform} 一样快，且全高在 ${tolerance} 以内。`,
-    },
-    nothing: {
-      layers: (uniform, figure) => `与均匀 ${uniform}（${figure}）一样多：此公差容不下更厚的层。`,
-      time: (uniform, figure) => `与均匀 ${uniform}（${figure}）一样慢：此公差容不下更厚的层。`,
-    },
+    none: (thin, thick, tolerance) => `${thin} 至 ${thick} 的均匀层都超出 ${tolerance}；此方案不超出。`,
+    little: (uniform, figure, tolerance) => `在 ${tolerance} 以内，均匀层厚 ${uniform}（${figure}）效果相近。`,
     saved: {
-      layers: (part, uniform, figure) => `比均匀 ${uniform}（${figure}）少 ${part}`,
-      time: (part, uniform, figure) => `比均匀 ${uniform}（${figure}）省时 ${part}`,
+      layers: (part, uniform, figure) => `比公差内最佳的均匀分层（${uniform}，${figure} 层）少 ${part}。`,
+      time: (part, uniform, figure) => `比公差内最快的均匀分层（${uniform}，${figure}）省时 ${part}。`,
     },
-    sameTolerance: (saved) => `${saved}，公差相同。`,
-    onlyThis: (saved) => `${saved}，且在后者不满足公差处仍满足。`,
-    coarsestToo: (saved, uniform) => `${saved}，但均匀 ${uniform} 也满足公差。`,
   },
   quality: {
     title: "质量",
@@ -85,9 +78,6 @@ export const plan = ({ count: number, size }: Format): PlanTexts => ({
     points: "各质量下最快的方案",
     finest: (uniform, time) => `均匀 ${uniform}，最精细：${time}`,
     coarsest: (uniform, time) => `均匀 ${uniform}，最粗：${time}`,
-    same: (part, uniform) => `质量与均匀 ${uniform} 相同，省时 ${part}。`,
-    near: (part, uniform, subject, error, finest) => `比均匀 ${uniform} 省时 ${part}。${subject}为 ${error}，而非 ${finest}。`,
-    none: (uniform) => `与均匀 ${uniform} 一样慢。向左移动滑块可使用更厚的层。`,
     single: "无论选择哪种质量，该模型的分层都相同。",
   },
   details: {
