@@ -31,8 +31,18 @@ pub enum Warning {
         /// Number of such facets.
         facets: usize,
     },
-    /// The whole mesh was inside out, so all facets were flipped.
+    /// The whole mesh was inside out, so all facets were turned over.
     InsideOut,
+    /// Facets faced the other way than those beside them, or than their body, and were turned over.
+    TurnedFacets {
+        /// Number of such facets.
+        facets: usize,
+    },
+    /// Facets cannot all face the same way, as on a Möbius strip, or where three meet at an edge.
+    Unorientable {
+        /// Edges at which they disagree.
+        edges: usize,
+    },
     /// The mesh has edges without a partner; its holes were closed by flat caps.
     OpenMesh {
         /// Edges without a partner.
@@ -133,7 +143,7 @@ pub enum Warning {
     OneThickness {
         /// Make and model of the printer, or the name of the format.
         taker: String,
-        /// The thickest uniform layers within tolerance, if any are.
+        /// The best uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
     },
     /// Nobody has told whether the printer prints layers of several thicknesses.
@@ -166,6 +176,38 @@ impl Warning {
     /// Whether it depends on the machine, not on the plan.
     pub(crate) fn is_of_the_machine(&self) -> bool {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
+    }
+
+    /// The sentences about what was read.
+    fn of_reading(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::DegenerateFacets { facets } => {
+                write!(f, "{} without area left out", counted(*facets, "facet"))
+            }
+            Self::InsideOut => f.write_str("the mesh was inside out, and was turned over"),
+            Self::TurnedFacets { facets } => write!(
+                f,
+                "{} facing the wrong way turned over",
+                counted(*facets, "facet")
+            ),
+            Self::Unorientable { edges } => write!(
+                f,
+                "facets cannot all face the same way at {}; what is inside there is a guess: look at the masks",
+                counted(*edges, "edge")
+            ),
+            Self::OpenMesh { open_edges, holes } => write!(
+                f,
+                "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
+                counted(*open_edges, "edge"),
+                counted(*holes, "hole"),
+            ),
+            Self::SkippedObjects { objects } => write!(
+                f,
+                "{} of the file left out: supports, surfaces, or not to be printed",
+                counted(*objects, "object")
+            ),
+            _ => Ok(()),
+        }
     }
 
     /// The sentences about voids and their holes.
@@ -201,21 +243,12 @@ impl Warning {
 impl std::fmt::Display for Warning {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
-            Self::DegenerateFacets { facets } => {
-                write!(f, "{} without area left out", counted(*facets, "facet"))
-            }
-            Self::InsideOut => f.write_str("the mesh was inside out, and was turned over"),
-            Self::OpenMesh { open_edges, holes } => write!(
-                f,
-                "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
-                counted(*open_edges, "edge"),
-                counted(*holes, "hole"),
-            ),
-            Self::SkippedObjects { objects } => write!(
-                f,
-                "{} of the file left out: supports, surfaces, or not to be printed",
-                counted(*objects, "object")
-            ),
+            Self::DegenerateFacets { .. }
+            | Self::InsideOut
+            | Self::TurnedFacets { .. }
+            | Self::Unorientable { .. }
+            | Self::OpenMesh { .. }
+            | Self::SkippedObjects { .. } => self.of_reading(f),
             Self::OddSize { size_mm, readings } => odd_size(f, *size_mm, readings),
             Self::UnitStated { stated, given } => write!(
                 f,

@@ -1,7 +1,8 @@
 //! The mesh: volumes in closed form, and defects planted and found.
 
-use crate::common::{assert_near, on_plate, solids};
+use crate::common::{assert_near, load, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
+use cusp_slicer::job::Options;
 use cusp_slicer::ldi::{RayImage, Survey};
 use cusp_slicer::model::{FacetClass, Mesh, MeshError, Pose};
 use cusp_slicer::profile::facet_bins::FacetBins;
@@ -83,10 +84,133 @@ fn a_flipped_facet_is_put_right() {
     let whole = Mesh::from_triangles(&triangles).unwrap();
     triangles[100].swap(0, 1);
     let mesh = Mesh::from_triangles(&triangles).unwrap();
-    // Each of its three edges is used twice in the same direction, and two caps correct that.
-    assert_eq!((mesh.open_edges, mesh.holes), (6, 2));
+    assert_eq!((mesh.turned_facets, mesh.open_edges, mesh.holes), (1, 0, 0));
     assert_eq!(unbalanced_edges(&mesh), 0);
     assert_near(mesh.volume_mm3(), whole.volume_mm3(), 1e-9);
+}
+
+/// A block of 20 mm with a slot of 8 × 4 mm through it. The walls of the slot have vertices half-way along their edges, which the
+/// floor and the ceiling around them have not.
+fn slotted() -> (solids::Triangles, usize) {
+    let rectangle = |x: f32, y: f32| [[-x, -y], [x, -y], [x, y], [-x, y]];
+    let (outer, inner) = (rectangle(10.0, 10.0), rectangle(4.0, 2.0));
+    let at = |[x, y]: [f32; 2], z: f32| Vec3::new(x, y, z);
+    let quad = |[a, b, c, d]: [Vec3; 4]| [[a, b, c], [a, c, d]];
+    let mut triangles = Vec::new();
+    let mut walls = Vec::new();
+    for i in 0..4 {
+        let [a, b] = [outer[i], outer[(i + 1) % 4]];
+        let [c, d] = [inner[i], inner[(i + 1) % 4]];
+        let middle = [f32::midpoint(c[0], d[0]), f32::midpoint(c[1], d[1])];
+        triangles.extend(quad([at(a, 20.0), at(b, 20.0), at(d, 20.0), at(c, 20.0)]));
+        triangles.extend(quad([at(a, 0.0), at(c, 0.0), at(d, 0.0), at(b, 0.0)]));
+        triangles.extend(quad([at(a, 0.0), at(b, 0.0), at(b, 20.0), at(a, 20.0)]));
+        for [from, to] in [[c, middle], [middle, d]] {
+            walls.extend(quad([
+                at(from, 0.0),
+                at(from, 20.0),
+                at(to, 20.0),
+                at(to, 0.0),
+            ]));
+        }
+    }
+    let first = triangles.len();
+    triangles.extend(walls);
+    (triangles, first)
+}
+
+#[test]
+fn walls_that_face_the_wrong_way_are_turned_also_beyond_t_junctions() {
+    let volume_mm3 = 20.0 * (400.0 - 32.0);
+    let (right, walls_from) = slotted();
+    let mut wrong = right.clone();
+    for corners in &mut wrong[walls_from..] {
+        corners.swap(0, 1);
+    }
+    for (triangles, turned) in [(right, 0), (wrong, 16)] {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        assert_eq!((mesh.turned_facets, mesh.was_inside_out), (turned, false));
+        assert_near(mesh.volume_mm3(), volume_mm3, 1e-6);
+        assert_eq!(unbalanced_edges(&mesh), 0);
+    }
+}
+
+#[test]
+fn facets_turned_at_random_leave_every_mask_as_it_was() {
+    let mut cases = solids::all();
+    // Four facets at each edge: nothing says which of them belong together.
+    cases.retain(|(name, _)| *name != "doubled sphere");
+    let mut open = solids::sphere(6.0, 4);
+    open.retain(|corners| {
+        corners
+            .iter()
+            .all(|corner| corner.z < 5.0 && corner.x < 5.5)
+    });
+    cases.push(("sphere with two openings", open));
+    cases.push(("block with a slot", slotted().0));
+    let mut random = fastrand::Rng::with_seed(7);
+    let masks = |triangles: &solids::Triangles| -> Vec<Vec<u8>> {
+        let mut slicer = load(triangles);
+        let options = Options {
+            rays: 60,
+            ..Options::default()
+        };
+        let report = pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+        let layers = report.layers;
+        let masks = (0..layers).map(|layer| slicer.mask(layer).unwrap());
+        masks.collect()
+    };
+    for (name, triangles) in cases {
+        let expected = masks(&triangles);
+        for part in [0.01, 0.1, 0.5] {
+            let mut turned = triangles.clone();
+            for corners in &mut turned {
+                if random.f64() < part {
+                    corners.swap(random.usize(0..2), 2);
+                }
+            }
+            assert!(masks(&turned) == expected, "{name}, {part}");
+        }
+    }
+}
+
+#[test]
+fn a_cavity_stays_one_where_a_tenth_of_its_facets_are_turned() {
+    let mut triangles = solids::sphere(6.0, 3);
+    let cavity = solids::inverted(&solids::sphere(3.0, 3));
+    let first = triangles.len();
+    triangles.extend(cavity);
+    let whole = Mesh::from_triangles(&triangles).unwrap().volume_mm3();
+    for corners in triangles[first..].iter_mut().step_by(10) {
+        corners.swap(0, 1);
+    }
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_near(mesh.volume_mm3(), whole, 1e-9);
+}
+
+#[test]
+fn a_strip_with_a_half_twist_is_counted_and_closed() {
+    let steps = 24;
+    let edge = |step: usize| {
+        let turn = step as f32 / steps as f32 * std::f32::consts::TAU;
+        let out = Vec3::new(turn.cos(), turn.sin(), 0.0);
+        let across = out * (turn / 2.0).cos() + Vec3::Z * (turn / 2.0).sin();
+        [out * 10.0 - across * 3.0, out * 10.0 + across * 3.0]
+    };
+    let mut triangles = Vec::new();
+    for step in 0..steps {
+        let [a, b] = edge(step);
+        let [c, d] = if step + 1 < steps {
+            edge(step + 1)
+        } else {
+            let [a, b] = edge(0);
+            [b, a]
+        };
+        triangles.extend([[a, b, d], [a, d, c]]);
+    }
+    let mesh = Mesh::from_triangles(&triangles).unwrap();
+    assert_eq!(mesh.contradictory_edges, 1);
+    assert_eq!(unbalanced_edges(&mesh), 0);
 }
 
 #[test]

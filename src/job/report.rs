@@ -59,6 +59,8 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Number of holes that were closed by flat caps.
     pub holes: usize,
+    /// Number of facets that were turned over, as they faced the other way than those beside them or than their body.
+    pub turned_facets: usize,
     /// Peak memory of an orientation search on one thread, in bytes.
     pub search_bytes: usize,
     /// Warnings.
@@ -83,6 +85,7 @@ impl MeshInfo {
             closed: mesh.is_closed(),
             open_edges: mesh.open_edges,
             holes: mesh.holes,
+            turned_facets: mesh.turned_facets,
             search_bytes: orientation::search_bytes(mesh),
             warnings: mesh_warnings(mesh),
         }
@@ -99,6 +102,16 @@ pub fn mesh_warnings(mesh: &Mesh) -> Vec<Warning> {
     }
     if mesh.was_inside_out {
         warnings.push(Warning::InsideOut);
+    }
+    if mesh.turned_facets > 0 {
+        warnings.push(Warning::TurnedFacets {
+            facets: mesh.turned_facets,
+        });
+    }
+    if mesh.contradictory_edges > 0 {
+        warnings.push(Warning::Unorientable {
+            edges: mesh.contradictory_edges,
+        });
     }
     if !mesh.is_closed() {
         warnings.push(Warning::OpenMesh {

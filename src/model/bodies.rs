@@ -5,7 +5,7 @@
 
 use glam::DVec3;
 
-use super::mesh::Mesh;
+use super::mesh::{Mesh, sixfold_volume};
 use crate::order::ascending;
 
 /// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
@@ -97,7 +97,7 @@ impl Body {
 
     fn add(&mut self, corners: [DVec3; 3]) {
         let [a, b, c] = corners.map(|corner| corner - self.first);
-        self.sixfold_mm3 += a.dot(b.cross(c));
+        self.sixfold_mm3 += sixfold_volume([a, b, c]);
         for corner in corners {
             for axis in 0..3 {
                 if corner[axis] < self.ends[axis][axis] {

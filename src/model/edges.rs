@@ -42,11 +42,21 @@ impl Neighbours {
     }
 }
 
-/// The facets on both sides of each edge, and every edge that is used more often in one direction than in the other, repeated by
-/// the difference, in order of its lower vertex.
+/// The edges of a mesh.
+pub(super) struct Edges {
+    pub neighbours: Neighbours,
+    /// Every edge that is used more often in one direction than in the other, repeated by the difference, in order of its lower vertex.
+    pub open: Vec<OpenEdge>,
+    /// Whether the two facets at an edge use it in opposite directions wherever there are two.
+    pub is_even: bool,
+    /// Edges at which three, five or more facets meet.
+    pub odd: usize,
+}
+
+/// The facets on both sides of each edge, and the edges that are left open.
 ///
 /// A counting sort puts edges into buckets by their lower vertex: linear, and without hashing.
-pub(super) fn edges(vertex_count: usize, facets: &[[u32; 3]]) -> (Neighbours, Vec<OpenEdge>) {
+pub(super) fn edges(vertex_count: usize, facets: &[[u32; 3]]) -> Edges {
     let edges = || {
         facets
             .iter()
@@ -71,16 +81,20 @@ pub(super) fn edges(vertex_count: usize, facets: &[[u32; 3]]) -> (Neighbours, Ve
     }
     let mut across = vec![[NOTHING; 3]; facets.len()];
     let mut open = Vec::new();
+    let mut is_even = true;
+    let mut odd = 0;
     for low in 0..vertex_count {
         let bucket = &mut uses[starts[low]..starts[low + 1]];
         bucket.sort_unstable();
         for edge in bucket.chunk_by(|left, right| left >> 32 == right >> 32) {
             let place_of = |one: u64| (one as u32 >> 1) as usize;
             if let &[one, other] = edge {
+                is_even &= (one ^ other) & 1 == 1;
                 let (one, other) = (place_of(one), place_of(other));
                 across[one / 3][one % 3] = (other / 3) as u32;
                 across[other / 3][other % 3] = (one / 3) as u32;
             } else if edge.len() > 2 {
+                odd += edge.len() % 2;
                 for &one in edge {
                     across[place_of(one) / 3][place_of(one) % 3] = SEVERAL;
                 }
@@ -96,5 +110,10 @@ pub(super) fn edges(vertex_count: usize, facets: &[[u32; 3]]) -> (Neighbours, Ve
             open.extend(std::iter::repeat_n(missing, upward.abs_diff(downward)));
         }
     }
-    (Neighbours(across), open)
+    Edges {
+        neighbours: Neighbours(across),
+        open,
+        is_even,
+        odd,
+    }
 }

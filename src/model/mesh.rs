@@ -9,6 +9,7 @@ use serde::Serialize;
 use super::bodies::misoriented;
 use super::class::{FacetClass, FacetClasses};
 use super::edges::{Neighbours, edges};
+use super::facing::facing;
 use super::holes;
 use super::pose::{Pose, rotation_matrix};
 
@@ -87,8 +88,12 @@ pub struct Mesh {
     pub open_edges: usize,
     /// Number of holes, that is, loops of open edges, that were closed.
     pub holes: usize,
-    /// Whether the input was inside out as a whole, so that all facets were flipped.
+    /// Whether the input was inside out as a whole, so that all facets were turned over.
     pub was_inside_out: bool,
+    /// Facets of the surface that were turned over, unless all were.
+    pub turned_facets: usize,
+    /// Edges at which the facets beside them cannot all face the same way, as on a Möbius strip, or where three meet.
+    pub contradictory_edges: usize,
     /// The first of the vertices that are centroids of caps, if there are any; all before it are the model's.
     centroids_from: u32,
 }
@@ -119,9 +124,18 @@ impl Mesh {
         }
         keep_joining_slivers(&mut facets, flat, vertices.len());
         let first_cap = facets.len();
-        let (neighbours, open_edges) = edges(vertices.len(), &facets);
-        let open_edge_count = open_edges.len();
-        let loops = holes::loops(&open_edges);
+        let mut found = edges(vertices.len(), &facets);
+        // Empty while none is turned over.
+        let mut turned = Vec::new();
+        let mut contradictory_edges = found.odd;
+        let near = NEAR_ROUNDINGS * rounding;
+        if let Some(facing) = facing(&vertices, &facets, &found, near) {
+            contradictory_edges += facing.contradictions;
+            turned = facing.turned;
+            turn(&mut facets, &turned);
+            found = edges(vertices.len(), &facets);
+        }
+        let loops = holes::loops(&found.open);
         let centroids_from = vertices.len() as u32;
         for hole in &loops {
             holes::cap(hole, &mut vertices, &mut facets);
@@ -130,31 +144,36 @@ impl Mesh {
             vertices,
             classes: FacetClasses::of_model(first_cap, facets.len()),
             facets,
-            neighbours: Arc::new(neighbours),
+            neighbours: Arc::new(found.neighbours),
             surface_facets,
             degenerate_facets: triangles.len() - surface_facets,
-            open_edges: open_edge_count,
+            open_edges: found.open.len(),
             holes: loops.len(),
             was_inside_out: false,
+            turned_facets: 0,
+            contradictory_edges,
             centroids_from,
         };
+        let mut turn_over = |mesh: &mut Self, wrong: &[bool]| {
+            turn(&mut mesh.facets, wrong);
+            mesh.neighbours = Arc::new(mesh.neighbours.turned(wrong));
+            turned.resize(first_cap, false);
+            for (turned, wrong) in turned.iter_mut().zip(wrong) {
+                *turned ^= wrong;
+            }
+        };
         if mesh.volume_mm3() < 0.0 {
-            mesh.turn(&vec![true; mesh.facets.len()]);
-            mesh.was_inside_out = true;
+            let all = vec![true; mesh.facets.len()];
+            turn_over(&mut mesh, &all);
         }
         if let Some(wrong) = misoriented(&mesh) {
-            mesh.turn(&wrong);
+            turn_over(&mut mesh, &wrong);
         }
+        let surface = turned.iter().take(surface_facets);
+        let turned = surface.filter(|&&it| it).count();
+        mesh.was_inside_out = turned == surface_facets;
+        mesh.turned_facets = if mesh.was_inside_out { 0 } else { turned };
         Ok(mesh)
-    }
-
-    /// Turns those facets over.
-    fn turn(&mut self, turned: &[bool]) {
-        let facets = self.facets.iter_mut().zip(turned);
-        for (corners, _) in facets.filter(|(_, turned)| **turned) {
-            corners.swap(1, 2);
-        }
-        self.neighbours = Arc::new(self.neighbours.turned(turned));
     }
 
     /// The corners of a facet in double precision.
@@ -250,7 +269,7 @@ impl Mesh {
         let sixfold: f64 = (0..self.classes.model_end() as usize)
             .map(|facet| {
                 let [a, b, c] = self.corners(facet).map(|corner| corner - centre);
-                a.dot(b.cross(c))
+                sixfold_volume([a, b, c])
             })
             .sum();
         sixfold / 6.0
@@ -348,6 +367,11 @@ impl Mesh {
     }
 }
 
+/// Six times the volume between a facet and the origin, negative if the origin is on its outer side.
+pub(super) fn sixfold_volume([a, b, c]: [DVec3; 3]) -> f64 {
+    a.dot(b.cross(c))
+}
+
 /// Gives equal corners one index, in order of first use. Facets with fewer than three distinct corners
 /// are kept here; the caller drops them.
 fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
@@ -372,6 +396,13 @@ fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     (vertices, facets)
 }
 
+/// Turns those facets over.
+fn turn(facets: &mut [[u32; 3]], turned: &[bool]) {
+    for (corners, _) in facets.iter_mut().zip(turned).filter(|(_, turned)| **turned) {
+        corners.swap(1, 2);
+    }
+}
+
 /// Adds those facets without area that lie between facets of the surface. They keep the surface closed
 /// when vertices are snapped. The others are dropped.
 fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_count: usize) {
@@ -387,6 +418,9 @@ fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_
                 .all(|&vertex| is_on_surface[vertex as usize])
     }));
 }
+
+/// Roundings of a coordinate within which a vertex lies on an edge: text files have fewer digits than single precision.
+const NEAR_ROUNDINGS: f64 = 16.0;
 
 /// Roundings of a coordinate within which the height of a needle of a facet tells nothing about its slope: its normal may be off by
 /// several degrees.

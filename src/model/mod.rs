@@ -5,6 +5,7 @@ mod class;
 pub(crate) mod crossing;
 mod edges;
 mod facet_lists;
+mod facing;
 mod file;
 mod holes;
 mod mesh;

@@ -331,6 +331,8 @@ fn warnings() -> Vec<Warning> {
     one_of_each!(Warning except []:
         DegenerateFacets { facets: 12 },
         InsideOut {},
+        TurnedFacets { facets: 12 },
+        Unorientable { edges: 3 },
         OpenMesh { open_edges: 12, holes: 3 },
         SkippedObjects { objects: 2 },
         OddSize {

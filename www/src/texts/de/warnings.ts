@@ -5,6 +5,8 @@ import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } f
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
   "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
+  "turned-facets": ({ facets }) => `${counted(facets, FACETS)} falsch herum, wurden umgedreht.`,
+  unorientable: ({ edges }) => `An ${counted(edges, EDGES)} können nicht alle Dreiecke in dieselbe Richtung zeigen: was dort innen ist, ist geraten. Sehen Sie sich die Masken an.`,
   "open-mesh": ({ open_edges, holes }) =>
     `Das Netz ist nicht geschlossen: ${counted(open_edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} eben geschlossen. Sehen Sie sich die Masken an.`,
   "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} der Datei weggelassen: Stützen, Flächen oder nicht zum Drucken.`,

@@ -6,6 +6,8 @@ import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } f
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
   "inside-out": () => "The mesh was inside out, and was turned over.",
+  "turned-facets": ({ facets }) => `${counted(facets, FACETS)} facing the wrong way turned over.`,
+  unorientable: ({ edges }) => `Facets cannot all face the same way at ${counted(edges, EDGES)}; what is inside there is a guess: look at the masks.`,
   "open-mesh": ({ open_edges, holes }) =>
     `The mesh is not closed: ${counted(open_edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by flat caps; look at the masks.`,
   "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} of the file left out: supports, surfaces, or not to be printed.`,

@@ -5,6 +5,8 @@ import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, POINTS, 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
+  "turned-facets": ({ facets }) => `${counted(facets, FACETS)} del revés: se les dio la vuelta.`,
+  unorientable: ({ edges }) => `En ${counted(edges, EDGES)} las facetas no pueden mirar todas hacia el mismo lado: lo que está dentro ahí es una suposición. Mire las máscaras.`,
   "open-mesh": ({ open_edges, holes }) =>
     `La malla no está cerrada: ${counted(open_edges, EDGES)} sin pareja, ${counted(holes, HOLES)} con planos. Mire las máscaras.`,
   "skipped-objects": ({ objects }) => `Del archivo se omite: ${counted(objects, OBJECTS)}, que son soportes, superficies o no se imprimen.`,

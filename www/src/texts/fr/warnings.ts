@@ -5,6 +5,8 @@ import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, POINTS, 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "Le maillage était à l’envers et a été retourné.",
+  "turned-facets": ({ facets }) => `${counted(facets, FACETS)} à l’envers : retournées.`,
+  unorientable: ({ edges }) => `À ${counted(edges, EDGES)}, les facettes ne peuvent pas toutes être tournées du même côté : ce qui est dedans y est supposé. Regardez les masques.`,
   "open-mesh": ({ open_edges, holes }) =>
     `Le maillage n’est pas fermé : ${counted(open_edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)} à plat. Regardez les masques.`,
   "skipped-objects": ({ objects }) => `Du fichier sont omis : ${counted(objects, OBJECTS)}, des supports, des surfaces ou ce qui ne s’imprime pas.`,

@@ -5,6 +5,8 @@ import { FAULTS, UNITS } from "./nouns.js";
 export const warnings = ({ count, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
   "inside-out": () => "网格内外颠倒，已翻转。",
+  "turned-facets": ({ facets }) => `${count(facets)} 个面朝向错误，已翻转。`,
+  unorientable: ({ edges }) => `有 ${count(edges)} 条边两侧的面无法朝向一致：该处的内外只是推测。请查看掩膜。`,
   "open-mesh": ({ open_edges, holes }) =>
     `网格不封闭：${count(open_edges)} 条边没有对边，${count(holes)} 个孔洞已用平面封上。请查看掩膜。`,
   "skipped-objects": ({ objects }) => `文件中略去 ${count(objects)} 个对象：支撑、曲面或不打印的对象。`,
