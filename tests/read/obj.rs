@@ -59,6 +59,34 @@ fn line_ends_and_a_byte_order_mark_make_no_difference() {
 }
 
 #[test]
+fn comments_may_end_a_line() {
+    let commented: Vec<String> = CUBE
+        .lines()
+        .map(|line| match line.split(' ').next() {
+            Some("v" | "f") if !line.ends_with('\\') => format!("{line} # note 1"),
+            _ => line.to_owned(),
+        })
+        .collect();
+    assert_eq!(read(&commented.join("\n")), read(CUBE));
+    assert_eq!(read(&CUBE.replace("4 3 2 1", "4 3 2 1 #note")), read(CUBE));
+}
+
+#[test]
+fn warped_quadrilaterals_are_cut_from_the_first_corner_to_the_third() {
+    let text = "v 0 0 0\nv 4 0 1\nv 4 4 0\nv 0 4 1\nf 1 2 3 4\nf 2 3 4 1\n";
+    let [a, b, c, d] = [[0, 0, 0], [4, 0, 1], [4, 4, 0], [0, 4, 1]]
+        .map(|corner: [i16; 3]| Vec3::from(corner.map(f32::from)));
+    let expected = [[a, b, c], [a, c, d], [b, c, d], [b, d, a]];
+    assert_eq!(read(text).unwrap(), expected);
+    // Where that diagonal is outside, it is the other one.
+    let arrow = "v 0 0 0\nv 4 1 0\nv 0 4 0\nv 1 1 0\nf 1 2 3 4\n";
+    let cut = read(arrow).unwrap();
+    let area = |[a, b, c]: [Vec3; 3]| 0.5 * (b - a).cross(c - a).z;
+    assert!(cut.iter().all(|&corners| area(corners) > 0.0));
+    assert_eq!(cut.iter().map(|&corners| area(corners)).sum::<f32>(), 6.0);
+}
+
+#[test]
 fn vertices_may_follow_the_faces_that_need_them() {
     let forward = read("f 1 2 3\nv 0 0 0\nv 1 0 0\nv 0 1 0\n").unwrap();
     assert_eq!(forward, [[Vec3::ZERO, Vec3::X, Vec3::Y]]);

@@ -87,14 +87,28 @@ fn any_line_end_ends_a_line() {
             },
             "{end:?}"
         );
-        assert_eq!(
-            with("endsolid part one\n", ""),
-            StlError::EndOfText {
-                line: 8,
-                expected: StlExpected::FacetOrEndsolid
-            },
-            "{end:?}"
-        );
+    }
+}
+
+#[test]
+fn what_writers_get_wrong_is_read_all_the_same() {
+    let expected = read(ASCII.as_bytes()).unwrap();
+    for (right, wrong) in [
+        ("endsolid", "end solid"),
+        ("endloop", "end loop"),
+        ("endfacet", "end facet"),
+        ("endfacet", "endfacet 1 of 12"),
+        ("endsolid part one\n", ""),
+        (
+            "endsolid part one\n",
+            "endsolid part one\nmade by hand,\nnot by a program\n",
+        ),
+    ] {
+        let text = ASCII.replace(right, wrong);
+        assert_ne!(text, ASCII, "{wrong:?}");
+        assert_eq!(read(text.as_bytes()).unwrap(), expected, "{wrong:?}");
+        let two = [&expected[..], &expected[..]].concat();
+        assert_eq!(read(text.repeat(2).as_bytes()).unwrap(), two, "{wrong:?}");
     }
 }
 

@@ -60,6 +60,24 @@ fn every_way_to_pack_a_part_gives_the_same() {
 }
 
 #[test]
+fn drafts_of_the_format_and_relative_targets_are_read() {
+    let triangles = solids::sphere(3.0, 2);
+    let text = model("", &object(7, &triangles), "<item objectid=\"7\"/>");
+    let draft = text.replace("3dmanufacturing/core/2015/02", "3dmanufacturing/2013/01");
+    assert_ne!(draft, text);
+    for (text, target) in [
+        (&draft, "3D/3dmodel.model"),
+        (&text, "./3D/3dmodel.model"),
+        (&text, "/3D/../3D/./3dmodel.model"),
+    ] {
+        let relationships = relationships(target);
+        let files = [("_rels/.rels", &*relationships), (START, &**text)];
+        let contents = read(&zipped(&files, Zipping::Deflated)).unwrap();
+        assert_eq!(contents.triangles, triangles, "{target}");
+    }
+}
+
+#[test]
 fn coordinates_are_converted_from_every_unit() {
     let cube = solids::cube(2.0);
     for (unit, mm) in [

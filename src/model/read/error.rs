@@ -18,7 +18,7 @@ pub enum ReadError {
     #[serde(rename = "file-empty")]
     Empty,
     /// A file of another known kind.
-    #[error("this is a {} file, which Cusp does not read; {}", kind.name(), kind.advice())]
+    #[error("{}", kind.sentence())]
     #[serde(rename = "other-file-kind")]
     OtherKind {
         /// The kind of the file.

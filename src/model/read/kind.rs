@@ -23,6 +23,14 @@ pub enum FileKind {
     Gzip,
     /// A web page.
     Html,
+    /// A PNG picture.
+    Png,
+    /// A JPEG picture.
+    Jpeg,
+    /// A PDF document.
+    Pdf,
+    /// DXF: a drawing.
+    Dxf,
 }
 
 impl FileKind {
@@ -36,11 +44,29 @@ impl FileKind {
             Self::Zip => "zip",
             Self::Gzip => "gzip",
             Self::Html => "HTML",
+            Self::Png => "PNG",
+            Self::Jpeg => "JPEG",
+            Self::Pdf => "PDF",
+            Self::Dxf => "DXF",
         }
     }
 
-    /// What the user can do with it instead.
-    pub(crate) fn advice(self) -> &'static str {
+    /// What it is and what the user can do instead, in a sentence.
+    pub(crate) fn sentence(self) -> String {
+        let name = self.name();
+        let noun = match self {
+            Self::Png | Self::Jpeg => "picture",
+            Self::Pdf => "document",
+            Self::Dxf => "drawing",
+            _ => {
+                let advice = self.advice();
+                return format!("this is a {name} file, which Cusp does not read; {advice}");
+            }
+        };
+        format!("this is a {noun} ({name}); Cusp opens STL, 3MF, OBJ and print files")
+    }
+
+    fn advice(self) -> &'static str {
         match self {
             Self::Zip | Self::Gzip => "unpack it, and open the model inside",
             Self::Html => {
@@ -61,8 +87,20 @@ impl FileKind {
         if head.starts_with(b"glTF") {
             return Some(Self::Gltf);
         }
+        if head.starts_with(b"\x89PNG\r\n\x1a\n") {
+            return Some(Self::Png);
+        }
+        if head.starts_with(b"\xff\xd8\xff") {
+            return Some(Self::Jpeg);
+        }
+        if head.starts_with(b"%PDF-") {
+            return Some(Self::Pdf);
+        }
         let text = head.strip_prefix(b"\xef\xbb\xbf").unwrap_or(head);
         let text = text.trim_ascii_start();
+        if head.starts_with(b"AutoCAD Binary DXF") || is_dxf(text) {
+            return Some(Self::Dxf);
+        }
         let starts_with = |word: &[u8]| {
             text.get(..word.len())
                 .is_some_and(|start| start.eq_ignore_ascii_case(word))
@@ -92,6 +130,17 @@ impl FileKind {
             Some(Self::Zip)
         }
     }
+}
+
+/// Whether a text begins as a DXF does, perhaps after comments: group 0, then SECTION.
+fn is_dxf(text: &[u8]) -> bool {
+    let mut lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+    let mut code = lines.next();
+    while code == Some(b"999") {
+        lines.next();
+        code = lines.next();
+    }
+    code == Some(b"0") && lines.next() == Some(b"SECTION")
 }
 
 fn contains(text: &[u8], part: &[u8]) -> bool {

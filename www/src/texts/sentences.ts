@@ -18,6 +18,7 @@ export type StlNouns = Readonly<Record<StlExpected, string>>;
 export const FILE_KINDS: Readonly<Record<FileKind, string>> = {
   ...{ amf: "AMF", ply: "PLY", step: "STEP", gltf: "glTF" },
   ...{ zip: "zip", gzip: "gzip", html: "HTML" },
+  ...{ png: "PNG", jpeg: "JPEG", pdf: "PDF", dxf: "DXF" },
 };
 
 /** Keywords of text STL files, the same in every language. */
@@ -37,6 +38,13 @@ const BORDER = /^Failed to deserialize JsValue into type `[^`]*`: (Error: )?/;
 export function ended(system: string): string {
   const said = system.replace(BORDER, "").trim();
   return /[.!?。！？]$/.test(said) ? said : `${said}.`;
+}
+
+/** A sentence with the noun for a file of something flat; null for other kinds. */
+export function flatKind<T>(kind: FileKind, nouns: { picture: T; document: T; drawing: T }, sentence: (noun: T) => string): string | null {
+  if (kind === "png" || kind === "jpeg") return sentence(nouns.picture);
+  if (kind === "pdf") return sentence(nouns.document);
+  return kind === "dxf" ? sentence(nouns.drawing) : null;
 }
 
 /** Selects the advice on a file of another kind. */

@@ -19,7 +19,7 @@ const SURFACES: [&[u8]; 4] = [b"surf", b"bsp", b"bzp", b"cdp"];
 /// Reads the faces of an OBJ as triangles, in file order.
 ///
 /// Corners are `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from the last vertex so far if negative.
-/// Polygons are cut into triangles. A line that ends with `\` goes on in the next.
+/// Polygons are cut into triangles. A line that ends with `\` goes on in the next, and a word that begins with `#` begins a comment.
 ///
 /// # Errors
 /// [`ObjError`], with the line where reading failed.
@@ -28,7 +28,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Contents, ObjError> {
     let mut triangles = Triangles::new();
     let (mut so_far, mut corners) = (0, Vec::new());
     for (line, text) in lines(bytes) {
-        let mut words = words(&text);
+        let mut words = words(&text).take_while(|word| !word.starts_with(b"#"));
         match words.next() {
             Some(b"v") => so_far += 1,
             Some(b"f") => {

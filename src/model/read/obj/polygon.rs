@@ -1,5 +1,6 @@
 //! Polygons to triangles, by ear cutting.
 //!
+//! A quadrilateral is cut from its first corner to its third where that diagonal is inside it, as trimesh and PrusaSlicer do.
 //! Every corner stays a corner, those along a straight edge too: the neighbours of a face may meet there, and a mesh that was
 //! closed stays closed. (Libraries drop such corners.)
 
@@ -23,6 +24,17 @@ pub fn cut(polygon: &[Vec3], mut take: impl FnMut([usize; 3])) {
         (1..count - 1).for_each(|corner| take([0, corner, corner + 1]));
         return;
     };
+    // Other programs cut a quadrilateral from its first corner to its third, which matters where it is warped.
+    if count == 4
+        && [[0, 1, 2], [0, 2, 3]].iter().all(|ear| {
+            let [a, b, c] = ear.map(|corner| flat[corner]);
+            area(a, b, c) > 0.0
+        })
+    {
+        take([0, 1, 2]);
+        take([0, 2, 3]);
+        return;
+    }
     let mut left: Vec<usize> = (0..count).collect();
     let mut at = 0;
     while left.len() > 3 {

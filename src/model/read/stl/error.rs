@@ -10,8 +10,6 @@ use serde::Serialize;
 pub enum StlExpected {
     /// The beginning of a solid.
     Solid,
-    /// Another solid, or the end of the file.
-    SolidOrEnd,
     /// A facet, or the end of the solid.
     FacetOrEndsolid,
     /// The word before a normal.
@@ -34,7 +32,6 @@ impl std::fmt::Display for StlExpected {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(match self {
             Self::Solid => "`solid`",
-            Self::SolidOrEnd => "`solid` or the end of the file",
             Self::FacetOrEndsolid => "`facet` or `endsolid`",
             Self::Normal => "`normal`",
             Self::NormalNumber => "a number of the normal",

@@ -21,7 +21,8 @@ const BINARY_FACET_BYTES: usize = 50;
 ///
 /// A file whose length matches the facet count at byte 80 is binary, whatever its header says, since many binary files begin
 /// with `solid`. ASCII may hold several solids. Keywords are matched without regard to case, and lines end with LF, CR or
-/// both. A whole file may be on one line: the name of a solid ends with its line or before `facet normal`.
+/// both. A whole file may be on one line: the name of a solid ends with its line or before `facet normal`. What writers get wrong
+/// is read all the same: closing words in two (`end loop`), words behind a facet or a solid, no `endsolid`.
 ///
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.
@@ -153,9 +154,17 @@ impl<'a> Words<'a> {
     /// Skips the name after `solid`, which is free text. It ends with its line, or before `facet normal` or `endsolid` in a
     /// file that is on one line.
     fn skip_name(&mut self) {
-        self.is_run_on = self.skip_free_text(|word, after| {
-            is(word, "endsolid") || is(word, "facet") && is(split_word(after).0, "normal")
-        });
+        self.is_run_on = self.skip_rest();
+    }
+
+    /// Skips words to the end of their line, or to what may follow a name or a facet; returns whether that came first.
+    fn skip_rest(&mut self) -> bool {
+        self.skip_free_text(|word, after| {
+            let next = split_word(after).0;
+            is(word, "endsolid")
+                || is(word, "end") && is(next, "solid")
+                || is(word, "facet") && is(next, "normal")
+        })
     }
 
     /// Skips the name after `endsolid`. It ends with its line, or before `solid` in a file whose names do not end with their
@@ -189,6 +198,26 @@ impl<'a> Words<'a> {
             Some(word) => Err(self.syntax(expected, word)),
             None => Err(self.end(expected)),
         })
+    }
+
+    /// Expects a closing word in one or, as some writers have it, in two: `end loop`.
+    fn expect_end(
+        &mut self,
+        whole: &str,
+        last: &str,
+        expected: StlExpected,
+    ) -> Result<(), StlError> {
+        match self.next() {
+            Some(word) if is(word, whole) => Ok(()),
+            Some(word) if is(word, "end") && self.is_next(last) => self.expect(&[last], expected),
+            Some(word) => Err(self.syntax(expected, word)),
+            None => Err(self.end(expected)),
+        }
+    }
+
+    /// Whether this is the next word of the line.
+    fn is_next(&self, word: &str) -> bool {
+        is(split_word(trim_blanks(self.rest)).0, word)
     }
 
     fn number(&mut self, expected: StlExpected) -> Result<f32, StlError> {
@@ -243,21 +272,29 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     let mut triangles = Vec::new();
     words.expect(&["solid"], StlExpected::Solid)?;
     words.skip_name();
+    let mut is_open = true;
     loop {
-        let word = words
-            .next()
-            .ok_or_else(|| words.end(StlExpected::FacetOrEndsolid))?;
-        if is(word, "endsolid") {
-            words.skip_closing_name();
-            match words.next() {
-                None => return Ok(triangles),
-                Some(word) if is(word, "solid") => words.skip_name(),
-                Some(word) => return Err(words.syntax(StlExpected::SolidOrEnd, word)),
-            }
-        } else if is(word, "facet") {
+        let Some(word) = words.next() else {
+            // Some writers leave the last line out.
+            return match triangles.is_empty() && is_open {
+                true => Err(words.end(StlExpected::FacetOrEndsolid)),
+                false => Ok(triangles),
+            };
+        };
+        if is(word, "facet") && (is_open || words.is_next("normal")) {
             triangles.push(read_ascii_facet(&mut words)?);
-        } else {
+            is_open = true;
+        } else if is(word, "endsolid") || is(word, "end") && words.is_next("solid") {
+            words.skip_closing_name();
+            is_open = false;
+        } else if is(word, "solid") {
+            words.skip_name();
+            is_open = true;
+        } else if is_open {
             return Err(words.syntax(StlExpected::FacetOrEndsolid, word));
+        } else {
+            // Text behind a solid.
+            words.skip_free_text(|word, _| is(word, "solid"));
         }
     }
 }
@@ -277,7 +314,8 @@ fn read_ascii_facet(words: &mut Words<'_>) -> Result<[Vec3; 3], StlError> {
             corner[axis] = words.number(StlExpected::Coordinate)?;
         }
     }
-    words.expect(&["endloop"], StlExpected::Endloop)?;
-    words.expect(&["endfacet"], StlExpected::Endfacet)?;
+    words.expect_end("endloop", "loop", StlExpected::Endloop)?;
+    words.expect_end("endfacet", "facet", StlExpected::Endfacet)?;
+    words.skip_rest();
     Ok(corners)
 }

@@ -27,7 +27,8 @@ impl Namespace {
             return Self::Other;
         }
         match steps.next().unwrap_or_default() {
-            b"core" => Self::Core,
+            // The first drafts have no name before the year.
+            b"core" | b"2013" => Self::Core,
             b"production" => Self::Production,
             b"securecontent" => Self::SecureContent,
             b"material" | b"slice" | b"beamlattice" | b"trianglesets" | b"displacement"

@@ -61,7 +61,7 @@ impl<'a> Package<'a> {
 
     /// The name by which the package knows a part, since the case of letters does not count and some writers encode them.
     pub fn find(&self, part: &str) -> Option<&str> {
-        let part = part.strip_prefix('/').unwrap_or(part);
+        let part = &resolved(part);
         let with_name = |name: &str| {
             let mut entries = self.entries.iter();
             entries.find(|entry| entry.name.eq_ignore_ascii_case(name))
@@ -169,6 +169,19 @@ fn inflate(inflater: &mut Decompress, rest: &mut &[u8], into: &mut [u8]) -> Opti
             return None;
         }
     }
+}
+
+/// A path from the root of the package, without `.` and `..`.
+fn resolved(path: &str) -> String {
+    let mut steps = Vec::new();
+    for step in path.split('/') {
+        match step {
+            "" | "." => (),
+            ".." => drop(steps.pop()),
+            step => steps.push(step),
+        }
+    }
+    steps.join("/")
 }
 
 /// A name with its `%` sequences replaced.

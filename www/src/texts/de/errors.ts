@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -33,7 +33,6 @@ const WORK: WorkWords = {
 
 const EXPECTED: StlNouns = {
   ...STL_KEYWORDS,
-  "solid-or-end": "`solid` oder das Ende der Datei",
   "facet-or-endsolid": "`facet` oder `endsolid`",
   "normal-number": "eine Zahl der Normalen",
   coordinate: "eine Koordinate",
@@ -47,6 +46,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal.",
   "unknown-file-kind": () => "Das ist kein Modell, das Cusp liest; exportieren Sie es als STL, 3MF oder OBJ.",
   "other-file-kind": ({ kind }) =>
+    flatKind(kind, { picture: "ein Bild", document: "ein Dokument", drawing: "eine Zeichnung" }, (noun) => `Das ist ${noun} (${FILE_KINDS[kind]}); Cusp öffnet STL, 3MF, OBJ und Druckdateien.`) ??
     `Das ist eine ${FILE_KINDS[kind]}-Datei, die Cusp nicht liest; ${adviceOn(kind, {
       model: "exportieren Sie das Modell als STL, 3MF oder OBJ",
       packed: "entpacken Sie sie, und öffnen Sie das Modell darin",

@@ -1,7 +1,7 @@
 /** Sentences on failures, as the command line says them. */
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -34,7 +34,6 @@ const WORK: WorkWords = {
 
 const EXPECTED: StlNouns = {
   ...STL_KEYWORDS,
-  "solid-or-end": "`solid` or the end of the file",
   "facet-or-endsolid": "`facet` or `endsolid`",
   "normal-number": "a number of the normal",
   coordinate: "a coordinate",
@@ -49,6 +48,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-empty": () => "The file is empty; export the model again.",
   "unknown-file-kind": () => "This is no model that Cusp reads; export it as STL, 3MF or OBJ.",
   "other-file-kind": ({ kind }) =>
+    flatKind(kind, { picture: "picture", document: "document", drawing: "drawing" }, (noun) => `This is a ${noun} (${FILE_KINDS[kind]}); Cusp opens STL, 3MF, OBJ and print files.`) ??
     `This is a ${FILE_KINDS[kind]} file, which Cusp does not read; ${adviceOn(kind, {
       model: "export the model as STL, 3MF or OBJ",
       packed: "unpack it, and open the model inside",

@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -33,7 +33,6 @@ const WORK: WorkWords = {
 
 const EXPECTED: StlNouns = {
   ...STL_KEYWORDS,
-  "solid-or-end": "`solid` o el final del archivo",
   "facet-or-endsolid": "`facet` o `endsolid`",
   "normal-number": "un número de la normal",
   coordinate: "una coordenada",
@@ -47,6 +46,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo.",
   "unknown-file-kind": () => "No es un modelo que Cusp lea; expórtelo como STL, 3MF u OBJ.",
   "other-file-kind": ({ kind }) =>
+    flatKind(kind, { picture: "una imagen", document: "un documento", drawing: "un dibujo" }, (noun) => `Es ${noun} (${FILE_KINDS[kind]}); Cusp abre STL, 3MF, OBJ y archivos de impresión.`) ??
     `Es un archivo ${FILE_KINDS[kind]}, que Cusp no lee; ${adviceOn(kind, {
       model: "exporte el modelo como STL, 3MF u OBJ",
       packed: "descomprímalo y abra el modelo que contiene",

@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FACETS, FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -33,7 +33,6 @@ const WORK: WorkWords = {
 
 const EXPECTED: StlNouns = {
   ...STL_KEYWORDS,
-  "solid-or-end": "`solid` ou la fin du fichier",
   "facet-or-endsolid": "`facet` ou `endsolid`",
   "normal-number": "un nombre de la normale",
   coordinate: "une coordonnée",
@@ -47,6 +46,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle.",
   "unknown-file-kind": () => "Ce n’est pas un modèle que Cusp lit ; exportez-le en STL, 3MF ou OBJ.",
   "other-file-kind": ({ kind }) =>
+    flatKind(kind, { picture: "une image", document: "un document", drawing: "un dessin" }, (noun) => `C’est ${noun} (${FILE_KINDS[kind]}) ; Cusp ouvre les STL, 3MF, OBJ et fichiers d’impression.`) ??
     `C’est un fichier ${FILE_KINDS[kind]}, que Cusp ne lit pas ; ${adviceOn(kind, {
       model: "exportez le modèle en STL, 3MF ou OBJ",
       packed: "décompressez-le et ouvrez le modèle qu’il contient",

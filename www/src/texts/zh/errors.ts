@@ -1,6 +1,6 @@
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
-import { adviceOn, ended, FILE_KINDS, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
+import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
 import { FAULTS } from "./nouns.js";
 import { readers } from "./readers.js";
 
@@ -33,7 +33,6 @@ const WORK: WorkWords = {
 
 const EXPECTED: StlNouns = {
   ...STL_KEYWORDS,
-  "solid-or-end": "`solid` 或文件结尾",
   "facet-or-endsolid": "`facet` 或 `endsolid`",
   "normal-number": "法线的一个数",
   coordinate: "一个坐标",
@@ -47,6 +46,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "file-empty": () => "文件是空的；请重新导出模型。",
   "unknown-file-kind": () => "这不是 Cusp 能读取的模型；请导出为 STL、3MF 或 OBJ。",
   "other-file-kind": ({ kind }) =>
+    flatKind(kind, { picture: "图片", document: "文档", drawing: "图纸" }, (noun) => `这是${noun}（${FILE_KINDS[kind]}）；Cusp 可打开 STL、3MF、OBJ 和打印文件。`) ??
     `这是 ${FILE_KINDS[kind]} 文件，Cusp 无法读取；${adviceOn(kind, {
       model: "请将模型导出为 STL、3MF 或 OBJ",
       packed: "请先解压，再打开其中的模型",
