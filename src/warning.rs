@@ -4,6 +4,7 @@ use serde::Serialize;
 
 use crate::ldi::GpuFault;
 use crate::model::ModelUnit;
+use crate::model::read::PartKind;
 use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
 
@@ -54,6 +55,25 @@ pub enum Warning {
     SkippedObjects {
         /// Number of such objects.
         objects: usize,
+    },
+    /// A part of a project is subtracted from the others, as its slicer does.
+    SubtractedPart {
+        /// Its name.
+        name: String,
+    },
+    /// A part of a project is not printed: it only guides the slicer that made it.
+    SkippedPart {
+        /// Its name.
+        name: String,
+        /// What it is.
+        kind: PartKind,
+    },
+    /// The project has several plates, of which one was read.
+    OtherPlates {
+        /// The plate, from 1.
+        plate_number: u32,
+        /// Number of plates.
+        plates: u32,
     },
     /// The file states no unit, and in millimetres the model is under 1 mm, or wider than any plate that is known.
     OddSize {
@@ -206,6 +226,20 @@ impl Warning {
                 "{} of the file left out: supports, surfaces, or not to be printed",
                 counted(*objects, "object")
             ),
+            Self::SubtractedPart { name } => write!(f, "the part “{name}” is subtracted"),
+            Self::SkippedPart { name, kind } => {
+                let kind = match kind {
+                    PartKind::Negative => "negative part",
+                    PartKind::Modifier => "modifier",
+                    PartKind::SupportBlocker => "support blocker",
+                    PartKind::SupportEnforcer => "support enforcer",
+                };
+                write!(f, "the {kind} “{name}” is left out")
+            }
+            Self::OtherPlates {
+                plate_number,
+                plates,
+            } => write!(f, "plate {plate_number} of {plates} is read"),
             _ => Ok(()),
         }
     }
@@ -248,7 +282,10 @@ impl std::fmt::Display for Warning {
             | Self::TurnedFacets { .. }
             | Self::Unorientable { .. }
             | Self::OpenMesh { .. }
-            | Self::SkippedObjects { .. } => self.of_reading(f),
+            | Self::SkippedObjects { .. }
+            | Self::SubtractedPart { .. }
+            | Self::SkippedPart { .. }
+            | Self::OtherPlates { .. } => self.of_reading(f),
             Self::OddSize { size_mm, readings } => odd_size(f, *size_mm, readings),
             Self::UnitStated { stated, given } => write!(
                 f,

@@ -20,9 +20,14 @@ const ROOM: f64 = 1e-6;
 
 /// Those of a file that is not there.
 pub const FACTS: FileFacts = FileFacts {
-    file: ModelFile { bytes: 0, crc32: 0 },
+    file: ModelFile {
+        bytes: 0,
+        crc32: 0,
+        plate: None,
+    },
     unit: None,
     skipped_objects: 0,
+    parts: Vec::new(),
 };
 
 /// Says what was planned if a promise is broken.

@@ -67,6 +67,7 @@ static MADE: LazyLock<Report> = LazyLock::new(|| {
         file: MODEL,
         unit: None,
         skipped_objects: 0,
+        parts: Vec::new(),
     };
     let options = Options {
         rays: 8,
@@ -86,6 +87,7 @@ static MADE: LazyLock<Report> = LazyLock::new(|| {
 const MODEL: ModelFile = ModelFile {
     bytes: 684,
     crc32: 1,
+    plate: None,
 };
 
 /// That plan, as the seed of [`plan`].

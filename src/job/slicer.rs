@@ -26,6 +26,7 @@ use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, RunSource, Side};
+use crate::model::read::PartKind;
 use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
@@ -63,15 +64,24 @@ struct Current {
 }
 
 impl Slicer {
-    /// Reads a model.
+    /// Reads a model; of a project with several plates, the first.
     ///
     /// # Errors
     /// [`Error::Read`], [`Error::Mesh`].
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
+        Self::load_plate(bytes, None)
+    }
+
+    /// Reads a plate of a project, from 1.
+    ///
+    /// # Errors
+    /// [`Error::Read`], [`Error::Mesh`].
+    pub fn load_plate(bytes: &[u8], plate_number: Option<u32>) -> Result<Self, Error> {
         let clock = Instant::now();
-        let contents = read::read(bytes)?;
+        let contents = read::read_plate(bytes, plate_number)?;
         let facts = FileFacts::new(bytes, &contents);
         let mut slicer = Self::of_triangles(&contents.triangles, facts)?;
+        slicer.model = slicer.model.without(&contents.negative)?;
         slicer.load_ms = ms_since(clock);
         Ok(slicer)
     }
@@ -149,7 +159,21 @@ impl Slicer {
             .zip(options.unit)
             .filter(|(stated, given)| stated != given);
         let ignored = stated.map(|(stated, given)| Warning::UnitStated { stated, given });
-        skipped.into_iter().chain(odd).chain(ignored).collect()
+        let parts = self.facts.parts.iter().map(|part| match part.kind {
+            PartKind::Negative => Warning::SubtractedPart {
+                name: part.name.clone(),
+            },
+            kind => Warning::SkippedPart {
+                name: part.name.clone(),
+                kind,
+            },
+        });
+        let plate = self.facts.file.plate.map(|plate| Warning::OtherPlates {
+            plate_number: plate.plate_number,
+            plates: plate.plates,
+        });
+        let skipped = skipped.into_iter().chain(plate).chain(parts);
+        skipped.chain(odd).chain(ignored).collect()
     }
 
     /// Resolves options for this model. A unit that the file states beats theirs.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ModelUnit;
-use super::read::Contents;
+use super::read::{Contents, Part, PlateChoice};
 use crate::crc::crc32;
 
 /// Identifies the file of a model by its length and checksum.
@@ -15,6 +15,9 @@ pub struct ModelFile {
     pub bytes: usize,
     /// CRC-32 of the contents, as in zips.
     pub crc32: u32,
+    /// The plate that was read, if it is a project of several.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plate: Option<PlateChoice>,
 }
 
 impl ModelFile {
@@ -23,6 +26,7 @@ impl ModelFile {
         Self {
             bytes: bytes.len(),
             crc32: crc32(bytes),
+            plate: None,
         }
     }
 }
@@ -37,15 +41,21 @@ pub struct FileFacts {
     pub unit: Option<ModelUnit>,
     /// Objects that are not printed; see [`Contents::skipped_objects`].
     pub skipped_objects: usize,
+    /// Parts that are no solids, each once.
+    pub parts: Vec<Part>,
 }
 
 impl FileFacts {
     /// The facts of a file with these bytes, read as `contents`.
     pub fn new(bytes: &[u8], contents: &Contents) -> Self {
         Self {
-            file: ModelFile::of(bytes),
+            file: ModelFile {
+                plate: contents.plate,
+                ..ModelFile::of(bytes)
+            },
             unit: contents.unit,
             skipped_objects: contents.skipped_objects,
+            parts: contents.parts.clone(),
         }
     }
 }

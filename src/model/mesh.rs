@@ -176,6 +176,18 @@ impl Mesh {
         Ok(mesh)
     }
 
+    /// The mesh less the bodies of these triangles, which become voids.
+    ///
+    /// # Errors
+    /// [`MeshError::NoArea`] if there are triangles, and none has an area.
+    pub fn without(mut self, negative: &[[Vec3; 3]]) -> Result<Self, MeshError> {
+        if !negative.is_empty() {
+            let bodies = Self::from_triangles(negative)?;
+            self.add(&bodies.vertices, &bodies.facets, FacetClass::Void);
+        }
+        Ok(self)
+    }
+
     /// The corners of a facet in double precision.
     #[inline]
     pub fn corners(&self, facet: usize) -> [DVec3; 3] {
@@ -336,6 +348,12 @@ impl Mesh {
         let placed = turned.into_iter().map(|vertex| (vertex - foot) * scale);
         let mut placed: Vec<DVec3> = placed.collect();
         self.place_centroids(&mut placed);
+        // What is subtracted may reach below the plate, where nothing is printed.
+        if !self.classes.is_model_alone() {
+            for vertex in &mut placed {
+                vertex.z = vertex.z.max(0.0);
+            }
+        }
         Ok(Self {
             vertices: placed.iter().map(|vertex| vertex.as_vec3()).collect(),
             facets: self.facets.clone(),

@@ -2,14 +2,16 @@
 
 use std::fmt::Write as _;
 
+use cusp_slicer::job::{Options, Slicer};
 use cusp_slicer::model::read::kind::FileKind;
 use cusp_slicer::model::read::threemf::ThreeMfError;
-use cusp_slicer::model::read::{Contents, ReadError, read};
+use cusp_slicer::model::read::{Contents, PartKind, ReadError, read, read_plate};
 use cusp_slicer::model::{Mesh, ModelUnit};
+use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
 use super::package::{START, Zipping, mesh, model, object, of, package, relationships, zipped};
-use crate::common::{assert_near, solids};
+use crate::common::{assert_near, quiet, solids};
 
 pub fn read_model(attributes: &str, resources: &str, build: &str) -> Result<Contents, ReadError> {
     read(&package(&model(attributes, resources, build), &[]))
@@ -74,6 +76,150 @@ fn drafts_of_the_format_and_relative_targets_are_read() {
         let files = [("_rels/.rels", &*relationships), (START, &**text)];
         let contents = read(&zipped(&files, Zipping::Deflated)).unwrap();
         assert_eq!(contents.triangles, triangles, "{target}");
+    }
+}
+
+/// A project of OrcaSlicer: a block, with a hole, a region and two supports that are only hints, and a second block on another plate.
+fn project() -> Vec<u8> {
+    let block = solids::cuboid(Vec3::new(20.0, 20.0, 10.0));
+    let hole = solids::moved(
+        &solids::cuboid(Vec3::new(4.0, 5.0, 30.0)),
+        Vec3::new(8.0, 8.0, -10.0),
+    );
+    let hint = solids::moved(&solids::cube(6.0), Vec3::new(0.0, 0.0, 12.0));
+    let mut resources = String::new();
+    for (id, triangles) in [(1, &block), (2, &hole), (3, &hint), (4, &hint), (5, &hint)] {
+        resources += &object(id, triangles);
+    }
+    resources += "<object id=\"6\"><components>";
+    for id in 1..=5 {
+        let _ = write!(resources, "<component objectid=\"{id}\"/>");
+    }
+    resources += "</components></object>";
+    let build = "<item objectid=\"6\"/><item objectid=\"1\"/><item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 50 0 0\"/>";
+    let text = model("", &resources, build);
+    let part = |id: u32, subtype: &str, name: &str| {
+        format!(
+            "<part id=\"{id}\" subtype=\"{subtype}\"><metadata key=\"name\" value=\"{name}\"/></part>"
+        )
+    };
+    let instance = |object: u32, instance: u32| {
+        format!(
+            "<model_instance><metadata key=\"object_id\" value=\"{object}\"/><metadata key=\"instance_id\" value=\"{instance}\"/></model_instance>"
+        )
+    };
+    let settings = format!(
+        "<?xml version=\"1.0\"?>\n<config><object id=\"6\"><metadata key=\"name\" value=\"all\"/>{}{}{}{}{}</object>\
+         <plate><metadata key=\"plater_id\" value=\"1\"/>{}</plate><plate>{}{}</plate><plate/></config>",
+        part(1, "normal_part", "block"),
+        part(2, "negative_part", "bolt &amp; nut"),
+        part(3, "modifier_part", "dense"),
+        part(4, "support_blocker", "none here"),
+        part(5, "support_enforcer", ""),
+        instance(6, 0),
+        instance(1, 0),
+        instance(1, 1),
+    );
+    let relationships = relationships(START);
+    let files = [
+        ("_rels/.rels", &*relationships),
+        (START, &*text),
+        ("Metadata/model_settings.config", &*settings),
+    ];
+    zipped(&files, Zipping::Deflated)
+}
+
+#[test]
+fn parts_that_slicers_do_not_print_are_subtracted_or_left_out_by_name() {
+    let bytes = project();
+    let contents = read(&bytes).unwrap();
+    assert_eq!(
+        (contents.triangles.len(), contents.negative.len()),
+        (12, 12)
+    );
+    let parts = contents.parts.iter();
+    let parts: Vec<_> = parts.map(|part| (&*part.name, part.kind)).collect();
+    assert_eq!(
+        parts,
+        [
+            ("bolt & nut", PartKind::Negative),
+            ("dense", PartKind::Modifier),
+            ("none here", PartKind::SupportBlocker),
+            ("5", PartKind::SupportEnforcer),
+        ]
+    );
+    // What is subtracted reaches beyond the block, also below the plate.
+    let mut slicer = Slicer::load(&bytes).unwrap();
+    let options = Options {
+        rays: 200,
+        ..Options::default()
+    };
+    let report = pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    assert_near(report.resin_ml, (400.0 - 20.0) * 10.0 / 1e3, 0.01);
+    assert_eq!(report.height_mm, 10.0);
+    let codes = report.warnings.iter().map(Warning::to_string);
+    let said: Vec<String> = codes.take(3).collect();
+    assert_eq!(
+        said,
+        [
+            "plate 1 of 2 is read",
+            "the part “bolt & nut” is subtracted",
+            "the modifier “dense” is left out",
+        ]
+    );
+}
+
+#[test]
+fn ranges_of_facets_are_parts_as_prusaslicer_writes_them() {
+    let mut triangles = solids::cuboid(Vec3::new(20.0, 20.0, 10.0));
+    triangles.extend(solids::moved(&solids::cube(4.0), Vec3::splat(8.0)));
+    triangles.extend(solids::moved(&solids::cube(4.0), Vec3::splat(30.0)));
+    let text = model("", &object(1, &triangles), "<item objectid=\"1\"/>");
+    let volume = |first: u32, kind: &str| {
+        format!(
+            "<volume firstid=\"{first}\" lastid=\"{}\"><metadata type=\"volume\" key=\"volume_type\" value=\"{kind}\"/></volume>",
+            first + 11
+        )
+    };
+    let settings = format!(
+        "<?xml version=\"1.0\"?><config><object id=\"1\">{}{}{}</object></config>",
+        volume(0, "ModelPart"),
+        volume(12, "NegativeVolume"),
+        volume(24, "ParameterModifier")
+    );
+    let relationships = relationships(START);
+    let files = [
+        ("_rels/.rels", &*relationships),
+        (START, &*text),
+        ("Metadata/Slic3r_PE_model.config", &*settings),
+    ];
+    let contents = read(&zipped(&files, Zipping::Deflated)).unwrap();
+    assert_eq!(contents.triangles, triangles[..12]);
+    assert_eq!(contents.negative, triangles[12..24]);
+    let kinds = contents.parts.iter().map(|part| part.kind);
+    assert!(kinds.eq([PartKind::Negative, PartKind::Modifier]));
+}
+
+#[test]
+fn a_plate_of_a_project_is_chosen_by_its_number() {
+    let bytes = project();
+    let first = read_plate(&bytes, Some(1)).unwrap();
+    assert_eq!(first.triangles, read(&bytes).unwrap().triangles);
+    let second = read_plate(&bytes, Some(2)).unwrap();
+    assert_eq!((second.triangles.len(), second.parts.len()), (24, 0));
+    let choice = second.plate.unwrap();
+    assert_eq!((choice.plate_number, choice.plates), (2, 2));
+    // The third has nothing on it.
+    for (bytes, plates) in [(&bytes, 2), (&of(&solids::cube(2.0)), 1)] {
+        let error = read_plate(bytes, Some(3)).unwrap_err();
+        let plate_number = 3;
+        assert_eq!(
+            error,
+            ReadError::NoPlate {
+                plate_number,
+                plates
+            }
+        );
     }
 }
 

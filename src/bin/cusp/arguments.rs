@@ -17,7 +17,7 @@ use cusp_slicer::resin::Resin;
 
 use crate::budget::Budget;
 use crate::config::{self, SettingsFile};
-use crate::files::{Failure, WeightsFile, load_painted, read_json};
+use crate::files::{Failure, Reading, WeightsFile, read_json};
 use crate::plate::Places;
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
@@ -59,7 +59,7 @@ impl Slicing {
         settings: &Settings,
         workers: usize,
     ) -> Result<Slicer, Failure> {
-        let slicer = load_painted(model, settings.weights.as_ref())?;
+        let slicer = settings.reading.load(model)?;
         Ok(self.budget.bound(slicer, workers))
     }
 }
@@ -157,6 +157,9 @@ pub struct Choices {
     /// Settings by the names that reports have under `options`, as TOML; options on the command line go before them
     #[arg(long, value_name = "FILE.toml")]
     config: Option<PathBuf>,
+    /// The plate of a 3MF project that has several, from 1 [default: 1]
+    #[arg(long, value_name = "N", help_heading = "Model")]
+    plate: Option<u32>,
     /// Rotate the model by a quaternion
     #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
     rotation: Option<[f64; 4]>,
@@ -309,7 +312,7 @@ enum InfillArg {
 /// What to plan with, from the command line and a file.
 pub struct Settings {
     pub options: Options,
-    pub weights: Option<WeightsFile>,
+    pub reading: Reading,
 }
 
 impl Choices {
@@ -369,7 +372,10 @@ impl Choices {
         let weights = self.weights.as_ref().or(weights.as_ref());
         Ok(Settings {
             options,
-            weights: weights.map(|path| WeightsFile::read(path)).transpose()?,
+            reading: Reading {
+                weights: weights.map(|path| WeightsFile::read(path)).transpose()?,
+                plate_number: self.plate,
+            },
         })
     }
 

@@ -9,7 +9,7 @@ use cusp_slicer::job::Report;
 use serde::Serialize;
 
 use crate::arguments::Studying;
-use crate::files::{Failure, in_file, load_painted, read_json};
+use crate::files::{Failure, in_file, read_json};
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, warn};
 use crate::watch::stop_on_interrupt;
@@ -48,7 +48,7 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
     let limits = checking.limits.as_deref().map(read_limits).transpose()?;
     let limits = limits.unwrap_or_default();
     let settings = studying.choices.settings()?;
-    let mut slicer = load_painted(&studying.model, settings.weights.as_ref())?;
+    let mut slicer = settings.reading.load(&studying.model)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);

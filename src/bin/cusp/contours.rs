@@ -11,7 +11,7 @@ use cusp_slicer::job::Slicer;
 use cusp_slicer::progress::Cancelled;
 
 use crate::arguments::Studying;
-use crate::files::{Failure, Output, Writer, load_painted};
+use crate::files::{Failure, Output, Writer};
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, warn};
 use crate::values::not_negative;
@@ -54,7 +54,7 @@ pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let is_svg = is_svg(output) == Some(true);
     let output = Output::new(output, Some(model), "model")?;
     let settings = studying.choices.settings()?;
-    let mut slicer = load_painted(model, settings.weights.as_ref())?;
+    let mut slicer = settings.reading.load(model)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let (warnings, report) = output.write(|writer| {

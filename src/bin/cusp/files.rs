@@ -172,8 +172,27 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes.map_err(|error| in_file(path, &error))?)
 }
 
-/// Reads a model. A file that is none is refused by its first bytes.
-pub fn load(model: &Path) -> Result<Slicer, Failure> {
+/// What to read of a model, and to apply to it.
+#[derive(Default)]
+pub struct Reading {
+    pub weights: Option<WeightsFile>,
+    /// The plate of a project, from 1; the first if absent.
+    pub plate_number: Option<u32>,
+}
+
+impl Reading {
+    /// Reads a model and applies weights.
+    pub fn load(&self, model: &Path) -> Result<Slicer, Failure> {
+        let mut slicer = load(model, self.plate_number)?;
+        if let Some(weights) = &self.weights {
+            weights.paint(&mut slicer, model)?;
+        }
+        Ok(slicer)
+    }
+}
+
+/// Reads a model, or a plate of a project. A file that is none is refused by its first bytes.
+pub fn load(model: &Path, plate_number: Option<u32>) -> Result<Slicer, Failure> {
     if !is_standard(model) {
         let head = head_of(model).map_err(|error| in_file(model, &error))?;
         if let Some((head, length)) = head {
@@ -182,7 +201,7 @@ pub fn load(model: &Path) -> Result<Slicer, Failure> {
         }
     }
     let bytes = read(model)?;
-    Slicer::load(&bytes).map_err(|error| Failure::in_file(model, &error))
+    Slicer::load_plate(&bytes, plate_number).map_err(|error| Failure::in_file(model, &error))
 }
 
 /// The first bytes and the length of a regular file. A pipe can be opened only once.
@@ -226,15 +245,6 @@ impl WeightsFile {
             ..Failure::in_file(model, &error)
         })
     }
-}
-
-/// Loads a model, and applies weights that have been read.
-pub fn load_painted(model: &Path, weights: Option<&WeightsFile>) -> Result<Slicer, Failure> {
-    let mut slicer = load(model)?;
-    if let Some(weights) = weights {
-        weights.paint(&mut slicer, model)?;
-    }
-    Ok(slicer)
 }
 
 /// A file to write, either completely or not at all; or standard output, for which that cannot be promised.

@@ -8,7 +8,7 @@ use cusp_slicer::plan::HeightRange;
 use serde::{Deserialize, Serialize};
 
 use crate::arguments::Choices;
-use crate::files::{Failure, WeightsFile, in_file, is_standard, load_painted, read};
+use crate::files::{Failure, Reading, WeightsFile, in_file, is_standard, read};
 use crate::plate::Places;
 use crate::usage::wrong_usage;
 
@@ -55,6 +55,9 @@ pub struct JobModel {
     /// A file of weights of its facets.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub weights: Option<PathBuf>,
+    /// The plate of a project that has several, from 1; the first if absent.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub plate: Option<u32>,
 }
 
 fn one() -> usize {
@@ -82,6 +85,7 @@ impl JobModel {
             tolerance: own.tolerance,
             ranges: own.ranges.clone(),
             weights: None,
+            plate: None,
         }
     }
 
@@ -143,7 +147,7 @@ pub fn read_job(
         }
     });
     let settings = choices.settings_over(file.options.clone())?;
-    if settings.weights.is_some() {
+    if settings.reading.weights.is_some() {
         let message = "weights belong to a model: name them beside it in a job file";
         wrong_usage(command, message);
     }
@@ -176,8 +180,11 @@ impl JobFile {
         for model in &self.models {
             let path = within(&model.file);
             let painted = model.weights.as_deref().map(within);
-            let read = painted.as_deref().map(WeightsFile::read).transpose()?;
-            plate.add(load_painted(&path, read.as_ref())?);
+            let reading = Reading {
+                weights: painted.as_deref().map(WeightsFile::read).transpose()?,
+                plate_number: model.plate,
+            };
+            plate.add(reading.load(&path)?);
             weights.push(painted);
             paths.push(path);
         }

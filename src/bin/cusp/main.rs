@@ -145,6 +145,9 @@ enum Command {
         /// Models: 3MF, OBJ or STL; - is standard input
         #[arg(required = true, value_name = "MODEL")]
         models: Vec<PathBuf>,
+        /// The plate of a 3MF project that has several, from 1 [default: 1]
+        #[arg(long, value_name = "N")]
+        plate: Option<u32>,
         /// Print one JSON object; for several models one per model, each on its own line
         #[arg(long)]
         json: bool,
@@ -233,7 +236,11 @@ fn main() -> ExitCode {
             json,
         } => models::saliency(&model, &output, json),
         Command::Printers { json } => models::printers(json),
-        Command::Info { models, json } => models::info(&models, json),
+        Command::Info {
+            models,
+            plate,
+            json,
+        } => models::info(&models, plate, json),
         Command::Completions { shell } => packaging::completions(shell),
         Command::Man { output } => packaging::man(output.as_deref()),
     };

@@ -15,7 +15,7 @@ use crate::terminal::{Bar, print, print_json};
 use crate::usage::check_json;
 use crate::watch::stop_on_interrupt;
 
-pub fn info(models: &[PathBuf], json: bool) -> Result<(), Failure> {
+pub fn info(models: &[PathBuf], plate: Option<u32>, json: bool) -> Result<(), Failure> {
     check_inputs("info", models);
     let [model] = models else {
         let batch = Batch {
@@ -24,9 +24,9 @@ pub fn info(models: &[PathBuf], json: bool) -> Result<(), Failure> {
             is_json: json,
             workers: workers(),
         };
-        return batch.run(|place, _| Ok(load(&models[place])?.info()));
+        return batch.run(|place, _| Ok(load(&models[place], plate)?.info()));
     };
-    let info = load(model)?.info();
+    let info = load(model, plate)?.info();
     if json {
         print_json(&info)?;
     } else {
@@ -64,7 +64,7 @@ pub struct Weighed {
 pub fn saliency(model: &Path, output: &Path, json: bool) -> Result<(), Failure> {
     check_json("saliency", Some(output), json);
     let output = Output::new(output, Some(model), "model")?;
-    let mut slicer = load(model)?;
+    let mut slicer = load(model, None)?;
     stop_on_interrupt();
     let facets = output.write(|mut writer| {
         let bar = Bar::new();

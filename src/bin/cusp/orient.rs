@@ -15,7 +15,7 @@ use cusp_slicer::orientation::{
 use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
-use crate::files::{Failure, Output, WeightsFile, in_file, load_painted};
+use crate::files::{Failure, Output, Reading, in_file};
 use crate::terminal::{Bar, duration, print, print_json, print_json_line, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
@@ -89,7 +89,7 @@ impl Orienting {
 
 pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     orienting.choices.check("orient");
-    let Settings { options, weights } = orienting.choices.settings()?;
+    let Settings { options, reading } = orienting.choices.settings()?;
     if orienting.models.len() > 1 && orienting.apply.is_some() {
         return Err("--apply is for one model".to_owned().into());
     }
@@ -102,7 +102,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     options.check().map_err(|error| error.to_string())?;
     let task = Task {
         options,
-        weights,
+        reading,
         parts: read_parts(orienting)?,
         target,
     };
@@ -142,7 +142,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
 /// What all models of a batch share.
 struct Task<'a> {
     options: Options,
-    weights: Option<WeightsFile>,
+    reading: Reading,
     parts: Vec<OrientationPart>,
     /// The file to write: as the user named it, and where it is.
     target: Option<Output<'a>>,
@@ -152,7 +152,7 @@ impl Task<'_> {
     /// The text to print for a model.
     fn answer(&self, orienting: &Orienting, model: &Path) -> Result<String, Failure> {
         let options = &self.options;
-        let mut slicer = load_painted(model, self.weights.as_ref())?;
+        let mut slicer = self.reading.load(model)?;
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
         let search = orienting.search();

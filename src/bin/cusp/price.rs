@@ -10,7 +10,7 @@ use serde::Serialize;
 
 use crate::arguments::Choices;
 use crate::batch::check_inputs;
-use crate::files::{Failure, in_file, load_painted, read_json};
+use crate::files::{Failure, in_file, read_json};
 use crate::job_file::{JobFile, job_file, read_job, with_copies};
 use crate::plate::Places;
 use crate::slice::make_plan;
@@ -119,7 +119,7 @@ impl Pricing {
     fn plan_alone(&self, model: &Path) -> Result<Report, Failure> {
         let (model, _) = with_copies(model);
         let settings = self.choices.settings()?;
-        let mut slicer = load_painted(&model, settings.weights.as_ref())?;
+        let mut slicer = settings.reading.load(&model)?;
         stop_on_interrupt();
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);

@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::export::{export, export_plugs};
-use crate::files::{Failure, Output, in_file, is_standard, load_painted};
+use crate::files::{Failure, Output, in_file, is_standard};
 use crate::plate;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
@@ -300,7 +300,7 @@ fn study<T>(
     settings: &Settings,
     ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
 ) -> Result<T, Failure> {
-    let mut slicer = load_painted(&studying.model, settings.weights.as_ref())?;
+    let mut slicer = settings.reading.load(&studying.model)?;
     stop_on_interrupt();
     open_gpu(&mut slicer, settings.options.backend);
     let bar = Bar::new();

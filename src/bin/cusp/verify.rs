@@ -13,7 +13,7 @@ use serde::Serialize;
 
 use crate::budget::Budget;
 use crate::check::{read_limits, verdict_name};
-use crate::files::{Failure, WeightsFile, in_file, load_painted};
+use crate::files::{Failure, Reading, WeightsFile, in_file};
 use crate::job_file::{JobFile, job_file};
 use crate::price::Order;
 use crate::terminal::{Bar, open_gpu, open_gpu_of_plate, print, print_json, warn};
@@ -287,8 +287,11 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     }
     let shop = verifying.shop()?;
     let weights = verifying.weights.as_deref();
-    let weights = weights.map(WeightsFile::read).transpose()?;
-    let mut slicer = budget.bound(load_painted(model, weights.as_ref())?, 1);
+    let reading = Reading {
+        weights: weights.map(WeightsFile::read).transpose()?,
+        plate_number: plate_of(&text),
+    };
+    let mut slicer = budget.bound(reading.load(model)?, 1);
     let claim =
         Claim::read(&text, slicer.model_file()).map_err(|error| Failure::of(plan, &error))?;
     stop_on_interrupt();
@@ -335,4 +338,11 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
         verdict,
         verified.price.as_ref(),
     )
+}
+
+/// The plate of a project that a plan was made for, as far as it says so. Whether it did is found out with the rest of it.
+fn plate_of(plan: &str) -> Option<u32> {
+    let plan: serde_json::Value = serde_json::from_str(plan).ok()?;
+    let number = plan["model"]["plate"]["plate_number"].as_u64()?;
+    u32::try_from(number).ok()
 }

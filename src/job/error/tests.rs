@@ -11,6 +11,7 @@ use crate::grid::GridError;
 use crate::inspect::LimitsError;
 use crate::job::OptionsError;
 use crate::ldi::{GpuFault, LdiError};
+use crate::model::read::PartKind;
 use crate::model::read::ReadError;
 use crate::model::read::kind::FileKind;
 use crate::model::read::obj::ObjError;
@@ -43,6 +44,7 @@ fn read_errors() -> Vec<ReadError> {
     let mut errors = one_of_each!(ReadError except [Stl, ThreeMf, Obj]:
         Empty {},
         OtherKind { kind: FileKind::Step },
+        NoPlate { plate_number: 4, plates: 3 },
         UnknownKind {},
     );
     errors.extend(stl_errors().into_iter().map(ReadError::from));
@@ -335,6 +337,9 @@ fn warnings() -> Vec<Warning> {
         Unorientable { edges: 3 },
         OpenMesh { open_edges: 12, holes: 3 },
         SkippedObjects { objects: 2 },
+        SubtractedPart { name: "hole".into() },
+        SkippedPart { name: "dense".into(), kind: PartKind::Modifier },
+        OtherPlates { plate_number: 1, plates: 3 },
         OddSize {
             size_mm: 0.8,
             readings: vec![

@@ -28,6 +28,15 @@ pub enum ReadError {
     #[error("this is no model that Cusp reads; export it as STL, 3MF or OBJ")]
     #[serde(rename = "unknown-file-kind")]
     UnknownKind,
+    /// The file has no such plate.
+    #[error("there is no plate {plate_number}: the file has {plates}")]
+    #[serde(rename = "no-plate")]
+    NoPlate {
+        /// The plate that was asked for, from 1.
+        plate_number: u32,
+        /// Number of plates.
+        plates: u32,
+    },
     /// An STL that is damaged.
     #[error(transparent)]
     #[serde(untagged)]

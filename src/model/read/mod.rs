@@ -9,6 +9,7 @@ mod text;
 pub mod threemf;
 
 use glam::Vec3;
+use serde::{Deserialize, Serialize};
 
 use super::ModelUnit;
 
@@ -27,10 +28,54 @@ pub type Triangles = Vec<[Vec3; 3]>;
 pub struct Contents {
     /// Its triangles, in millimetres if the file has a unit.
     pub triangles: Triangles,
+    /// The triangles of bodies that are subtracted from it.
+    pub negative: Triangles,
     /// The unit that the file states, from which the triangles were converted.
     pub unit: Option<ModelUnit>,
     /// Objects that are not printed: supports of other programs, surfaces, and what a user turned off.
     pub skipped_objects: usize,
+    /// Parts that slicers do not print as solids, each once.
+    pub parts: Vec<Part>,
+    /// The plate that was read, if the file has several.
+    pub plate: Option<PlateChoice>,
+}
+
+/// A part of a project that is no solid.
+#[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Part {
+    /// Its name in the project.
+    pub name: String,
+    /// What it is.
+    pub kind: PartKind,
+}
+
+/// What a part of a project is, other than a solid.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(rename_all = "kebab-case")]
+pub enum PartKind {
+    /// Subtracted from the solids.
+    Negative,
+    /// A region with settings of its own.
+    Modifier,
+    /// A region without supports.
+    SupportBlocker,
+    /// A region that is to be supported.
+    SupportEnforcer,
+}
+
+/// A plate of a project that has several.
+#[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct PlateChoice {
+    /// The plate, from 1.
+    pub plate_number: u32,
+    /// Number of plates.
+    pub plates: u32,
 }
 
 impl Contents {
@@ -38,8 +83,11 @@ impl Contents {
     fn without_unit(triangles: Triangles) -> Self {
         Self {
             triangles,
+            negative: Triangles::new(),
             unit: None,
             skipped_objects: 0,
+            parts: Vec::new(),
+            plate: None,
         }
     }
 }
@@ -49,10 +97,26 @@ impl Contents {
 /// # Errors
 /// [`ReadError`], with the byte offset, or the line and the part, where reading failed.
 pub fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
-    match identify(head_of(bytes), bytes.len() as u64)? {
-        ModelFormat::Stl => Ok(Contents::without_unit(stl::read(bytes)?)),
-        ModelFormat::ThreeMf => threemf::read(bytes),
-        ModelFormat::Obj => Ok(obj::read(bytes)?),
+    read_plate(bytes, None)
+}
+
+/// The same of one plate of a project, from 1; the first if none is given. Files without plates have one.
+///
+/// # Errors
+/// [`ReadError`]; [`ReadError::NoPlate`] if there is no such plate.
+pub fn read_plate(bytes: &[u8], plate_number: Option<u32>) -> Result<Contents, ReadError> {
+    let contents = match identify(head_of(bytes), bytes.len() as u64)? {
+        ModelFormat::Stl => Contents::without_unit(stl::read(bytes)?),
+        ModelFormat::ThreeMf => threemf::read(bytes, plate_number)?,
+        ModelFormat::Obj => obj::read(bytes)?,
+    };
+    let plates = contents.plate.map_or(1, |plate| plate.plates);
+    match plate_number {
+        Some(plate_number) if !(1..=plates).contains(&plate_number) => Err(ReadError::NoPlate {
+            plate_number,
+            plates,
+        }),
+        _ => Ok(contents),
     }
 }
 

@@ -8,7 +8,8 @@ use rustc_hash::FxHashMap;
 use super::ThreeMfError;
 use super::model::{self, Model, Object, Reference};
 use super::package::Package;
-use crate::model::read::Triangles;
+use super::settings::Settings;
+use crate::model::read::{Part, PartKind, PlateChoice, Triangles};
 
 /// Levels of components.
 const MOST_LEVELS: usize = 64;
@@ -26,26 +27,46 @@ pub struct Build<'a> {
     stored: usize,
     /// Facets and components that were placed.
     placed: usize,
+    settings: &'a Settings,
     pub triangles: Triangles,
+    /// The facets of parts that are subtracted.
+    pub negative: Triangles,
     /// Objects that are not printed.
     pub skipped: usize,
+    /// Parts that are no solids, each once.
+    pub parts: Vec<Part>,
 }
 
 impl<'a> Build<'a> {
-    /// Builds all items of the model that a package starts with.
-    pub fn of(package: &'a Package<'a>, start: &str) -> Result<(Self, Rc<Model>), ThreeMfError> {
+    /// Builds the items of the model that a package starts with: all, or those on a plate.
+    pub fn of(
+        package: &'a Package<'a>,
+        start: &str,
+        settings: &'a Settings,
+        plate: Option<PlateChoice>,
+    ) -> Result<(Self, Rc<Model>), ThreeMfError> {
         let mut build = Self {
             package,
             models: FxHashMap::default(),
             stored: 0,
             placed: 0,
+            settings,
             triangles: Triangles::new(),
+            negative: Triangles::new(),
             skipped: 0,
+            parts: Vec::new(),
         };
         let root = build.model(start)?;
         let unit = DAffine3::from_scale(DVec3::splat(root.unit.mm()));
+        let chosen = plate.and_then(|it| settings.plates.get(it.plate_number as usize - 1));
+        let mut instances = FxHashMap::default();
         for item in &root.items {
-            build.place(&root, item, unit, 0)?;
+            let next: &mut u32 = instances.entry(item.object).or_default();
+            let instance = (item.object, *next);
+            *next += 1;
+            if chosen.is_none_or(|plate| plate.contains(&instance)) {
+                build.place(&root, item, unit, 0, None)?;
+            }
         }
         Ok((build, root))
     }
@@ -74,6 +95,7 @@ impl<'a> Build<'a> {
         reference: &Reference,
         to_mm: DAffine3,
         level: usize,
+        part: Option<&Part>,
     ) -> Result<(), ThreeMfError> {
         if !reference.is_printable {
             self.skipped += 1;
@@ -119,19 +141,23 @@ impl<'a> Build<'a> {
         if model.unit != from.unit {
             to_mm *= DAffine3::from_scale(DVec3::splat(model.unit.mm() / from.unit.mm()));
         }
-        if !self.add(object, to_mm) {
+        if !self.add(id, object, to_mm, part) {
             return Err(ThreeMfError::Overflow {
                 part: model.part.clone(),
                 object: id,
             });
         }
         let mut components = object.components.iter();
-        components.try_for_each(|component| self.place(&model, component, to_mm, level + 1))
+        let settings = self.settings;
+        components.try_for_each(|component| {
+            let own = settings.component(id, component.object);
+            self.place(&model, component, to_mm, level + 1, own.or(part))
+        })
     }
 
-    /// Adds the facets of an object. A transform that mirrors turns them over, so that they face outward again. `false` if a
+    /// Adds the facets of an object, of which all or some may be a part that is no solid. A transform that mirrors turns them over, so that they face outward again. `false` if a
     /// coordinate is not finite.
-    fn add(&mut self, object: &Object, to_mm: DAffine3) -> bool {
+    fn add(&mut self, id: u32, object: &Object, to_mm: DAffine3, part: Option<&Part>) -> bool {
         let vertices = object.vertices.iter();
         let vertices = vertices.map(|vertex| to_mm.transform_point3(vertex.as_dvec3()).as_vec3());
         let vertices: Vec<_> = vertices.collect();
@@ -140,7 +166,24 @@ impl<'a> Build<'a> {
             let corners = if mirrors { [a, c, b] } else { [a, b, c] };
             corners.map(|corner| vertices[corner as usize])
         });
-        self.triangles.extend(facets);
+        if part.is_none() && !self.settings.has_ranges(id) {
+            self.triangles.extend(facets);
+        } else {
+            for (index, corners) in facets.enumerate() {
+                let own = self.settings.facet(id, index as u32);
+                match own.or(part) {
+                    None => self.triangles.push(corners),
+                    Some(part) => {
+                        if !self.parts.contains(part) {
+                            self.parts.push(part.clone());
+                        }
+                        if part.kind == PartKind::Negative {
+                            self.negative.push(corners);
+                        }
+                    }
+                }
+            }
+        }
         vertices.iter().all(|vertex| vertex.is_finite())
     }
 }

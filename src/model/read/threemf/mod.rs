@@ -1,7 +1,7 @@
 //! 3MF to triangles: a zip of XML parts, with objects, their components, and the items to build of them.
 //!
 //! Facets count, and where they are: units, transforms, components in other parts (the production extension). Colours,
-//! materials, textures and slicers' settings do not. A part is inflated and read as a stream; only the objects of the file are
+//! materials and textures do not, nor do slicers' settings, but for which parts are no solids. A part is inflated and read as a stream; only the objects of the file are
 //! held in memory, and then their triangles.
 
 mod build;
@@ -9,13 +9,15 @@ mod error;
 mod model;
 mod namespaces;
 mod package;
+mod settings;
 mod values;
 mod xml;
 
 use super::kind::FileKind;
-use super::{Contents, ReadError, head_of};
+use super::{Contents, PlateChoice, ReadError, head_of};
 use build::Build;
 use package::Package;
+use settings::Settings;
 use xml::{Tag, Tags, unescaped};
 
 pub use error::{ThreeMfError, ThreeMfFeature, XmlFault};
@@ -25,11 +27,11 @@ const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmo
 /// Where it nearly always is.
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// Reads what a 3MF builds: the facets of all its items, each as often as it is placed, in file order.
+/// Reads what a 3MF builds: the facets of all its items, or of those on one plate, each as often as it is placed, in file order.
 ///
 /// # Errors
 /// [`ThreeMfError`], with the part and the line where reading failed; [`ReadError::OtherKind`] for other zips.
-pub(super) fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
+pub(super) fn read(bytes: &[u8], plate_number: Option<u32>) -> Result<Contents, ReadError> {
     let package = Package::new(bytes).map_err(|error| match FileKind::of_zip(head_of(bytes)) {
         None => ReadError::from(error),
         Some(kind) => ReadError::OtherKind { kind },
@@ -46,7 +48,13 @@ pub(super) fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
             return Err(ReadError::OtherKind { kind });
         }
     };
-    let (build, root) = Build::of(&package, &start)?;
+    let settings = Settings::of(&package)?;
+    let plates = settings.plates.len() as u32;
+    let plate = (plates > 1).then(|| PlateChoice {
+        plate_number: plate_number.unwrap_or(1).clamp(1, plates),
+        plates,
+    });
+    let (build, root) = Build::of(&package, &start, &settings, plate)?;
     if build.triangles.is_empty() {
         let skipped = build.skipped;
         return Err(ThreeMfError::NoFacets { skipped }.into());
@@ -55,6 +63,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
         unit: Some(root.unit),
         skipped_objects: build.skipped,
         triangles: build.triangles,
+        negative: build.negative,
+        parts: build.parts,
+        plate,
     })
 }
 
