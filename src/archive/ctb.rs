@@ -177,7 +177,8 @@ fn head(job: &PrintJob<'_>) -> Vec<u8> {
     fields.u32(SLICER_VERSION);
     fields.f32(resin.wait_s);
     fields.f32(0.0);
-    fields.zeros(16);
+    fields.u32(job.transition_layers as u32);
+    fields.zeros(12);
     fields.bytes(machine.as_bytes());
     debug_assert_eq!(bytes.len(), table_at as usize);
     bytes

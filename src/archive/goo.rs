@@ -162,7 +162,7 @@ fn header(job: &PrintJob<'_>, moves: &Moves, order: ByteOrder) -> Vec<u8> {
     fields.u32(HEADER_BYTES);
     // Greys of 8 bits.
     fields.bool(true);
-    fields.u16(0);
+    fields.u16(u16::try_from(job.transition_layers).unwrap_or(u16::MAX));
     debug_assert_eq!(bytes.len(), HEADER_BYTES as usize);
     bytes
 }

@@ -11,6 +11,7 @@ mod pw0;
 mod raster;
 pub mod read;
 pub mod runs;
+mod schedule;
 mod survey;
 mod transfer;
 mod zip;
@@ -19,6 +20,7 @@ use std::collections::BTreeMap;
 use std::io::Write;
 
 pub use preview::{Look, Standing};
+pub use schedule::{SAME_S, Schedule};
 use serde::Serialize;
 use serde_json::value::RawValue;
 use survey::{Bounds, Survey};
@@ -260,6 +262,9 @@ pub struct PrintJob<'a> {
     pub height_mm: f64,
     /// The resin.
     pub resin: &'a Resin,
+    /// Number of layers above the bottom layers over which the exposure falls to the usual one. It is stated beside the
+    /// exposures of the layers, which follow [`Schedule`] if no layer has values of its own.
+    pub transition_layers: usize,
     /// Volume of resin in the model, in millilitres.
     pub resin_ml: f64,
     /// The printer, if the job names one.
@@ -297,16 +302,17 @@ impl PrintJob<'_> {
         middle.map_or(self.resin.layer_mm, |layer| layer.thickness_mm)
     }
 
-    /// Whether the layers have values that the file's head does not: several thicknesses, or several exposures above the
-    /// bottom layers.
+    /// Whether the layers have values that the file's head does not: several thicknesses, or exposures other than those of
+    /// bottom layers, of a fade and of the usual layer.
     fn needs_layer_settings(&self) -> bool {
-        let upper = self.layers.get(self.resin.bottom_layers..);
+        let schedule = Schedule {
+            bottom_layers: self.resin.bottom_layers,
+            bottom_s: self.resin.bottom_exposure_s,
+            transition_layers: self.transition_layers,
+            usual_s: self.resin.exposure_s(self.usual_mm()),
+        };
         !are_equal(&self.thickness_mm())
-            || upper.is_some_and(|layers| {
-                layers
-                    .windows(2)
-                    .any(|pair| pair[0].exposure_s != pair[1].exposure_s)
-            })
+            || !schedule.fits(self.layers.iter().map(|layer| layer.exposure_s))
     }
 
     fn thickness_mm(&self) -> Vec<f64> {

@@ -299,8 +299,9 @@ fn write_header(fields: &mut Fields<'_>, job: &PrintJob<'_>, version: u32) {
     fields.text("$", 4);
     fields.u32(job.needs_layer_settings().into());
     fields.u32(job.print_time_s() as u32);
-    // No transition layers, and lifts of one stage.
-    fields.zeros(12);
+    fields.u32(job.transition_layers as u32);
+    // The fade is linear, and lifts have one stage.
+    fields.zeros(8);
     if version >= 517 {
         // Grey, blur and kind of resin.
         fields.zeros(8);

@@ -34,6 +34,7 @@ pub(super) fn write_print<W: Write>(
         masks,
         height_mm: report.height_mm,
         resin: &planned.layering.resin,
+        transition_layers: 0,
         resin_ml: report.resin_ml,
         printer: output.printer.as_deref(),
         best_uniform: &|| planned.best_uniform(),

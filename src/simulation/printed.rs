@@ -151,7 +151,7 @@ fn boundaries(file: &PrintFile<'_>) -> Result<Vec<f64>, SimulationError> {
     let tops = file.layers().iter().map(|layer| layer.z_mm);
     let z_mm: Vec<f64> = std::iter::once(0.0).chain(tops).collect();
     for (layer, pair) in z_mm.windows(2).enumerate() {
-        if !pair.is_sorted_by(|below, above| below < above) {
+        if !pair.is_sorted_by(|below, above| below < above && above.is_finite()) {
             return Err(SimulationError::ZOrder {
                 layer: layer + 1,
                 z_mm: pair[1],

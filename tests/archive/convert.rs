@@ -14,7 +14,7 @@ use glam::Vec3;
 use super::read_back::{kept, own, runs, slice};
 use crate::common::{assert_near, solids};
 
-fn to(format: Format) -> Target {
+pub fn to(format: Format) -> Target {
     Target {
         format: Some(format),
         ..Target::default()
@@ -22,7 +22,7 @@ fn to(format: Format) -> Target {
 }
 
 /// Converts a file. Returns the new one, and what it lost.
-fn convert(bytes: &[u8], target: &Target) -> Result<(Vec<u8>, Vec<Loss>), ConvertError> {
+pub fn convert(bytes: &[u8], target: &Target) -> Result<(Vec<u8>, Vec<Loss>), ConvertError> {
     let file = PrintFile::open(bytes).unwrap();
     let inspection = inspect(&file, &mut silent).unwrap();
     let conversion = Conversion::new(&file, &inspection, target)?;
@@ -30,7 +30,7 @@ fn convert(bytes: &[u8], target: &Target) -> Result<(Vec<u8>, Vec<Loss>), Conver
     Ok((written, conversion.losses().to_vec()))
 }
 
-fn options(planner: Planner) -> Options {
+pub fn options(planner: Planner) -> Options {
     Options {
         printer: Some(own(Format::Goo, None)),
         height_mm: Some(2.0),
@@ -50,7 +50,7 @@ fn ell() -> solids::Triangles {
     ell
 }
 
-const UNIFORM: Planner = Planner::Uniform { layer_mm: 0.1 };
+pub const UNIFORM: Planner = Planner::Uniform { layer_mm: 0.1 };
 
 #[test]
 fn every_format_becomes_every_other() {
@@ -202,7 +202,7 @@ fn masks_are_mirrored_on_request_and_stay_the_same_from_above() {
 }
 
 /// A zip with some of its files replaced.
-fn with_files(bytes: &[u8], replace: impl Fn(&str, Vec<u8>) -> Vec<u8>) -> Vec<u8> {
+pub fn with_files(bytes: &[u8], replace: impl Fn(&str, Vec<u8>) -> Vec<u8>) -> Vec<u8> {
     let mut old = zip::ZipArchive::new(Cursor::new(bytes)).unwrap();
     let mut new = zip::ZipWriter::new(Cursor::new(Vec::new()));
     for index in 0..old.len() {
@@ -252,11 +252,11 @@ fn masks_on_their_side_are_set_upright() {
     }
 }
 
-fn refusal(bytes: &[u8], target: &Target) -> String {
+pub fn refusal(bytes: &[u8], target: &Target) -> String {
     convert(bytes, target).map(|_| ()).unwrap_err().to_string()
 }
 
-fn assert_contains(text: &str, parts: &[&str]) {
+pub fn assert_contains(text: &str, parts: &[&str]) {
     for part in parts {
         assert!(text.contains(part), "{text}");
     }

@@ -1,6 +1,7 @@
 //! Print files, read back with independent libraries.
 
 mod convert;
+mod convert_values;
 mod formats;
 mod png_zip;
 mod read_back;

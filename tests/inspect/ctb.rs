@@ -270,3 +270,18 @@ fn files_of_other_kinds_say_what_they_are() {
         PrintFileError::Truncated { .. }
     ));
 }
+
+#[test]
+fn exposures_that_are_no_numbers_are_found() {
+    let mut file = blank(3, 0, &[(0.05, white()), (0.1, white())]);
+    let table = u32::from_le_bytes(file.bytes[0x40..0x44].try_into().unwrap()) as usize;
+    file.f32(table + 36 + 4, f32::INFINITY);
+    let exposures = FileFinding::BadExposures {
+        layers: 1,
+        first_layer: 2,
+    };
+    assert_eq!(warnings(&file.bytes), std::slice::from_ref(&exposures));
+    file.f32(0x20, f32::NAN);
+    let expected = [FileFinding::BadNominalValues, exposures];
+    assert_eq!(warnings(&file.bytes), expected);
+}

@@ -297,3 +297,28 @@ fn what_cannot_be_read_says_why() {
     named.u32(195_470, 0).text(92, "ELEGOO Jupiter 2");
     assert_eq!(open(&named.bytes).about().pixels, [6, 4]);
 }
+
+#[test]
+fn heights_and_exposures_that_are_no_numbers_are_found() {
+    for value in [f32::NAN, f32::INFINITY, f32::NEG_INFINITY] {
+        let mut file = blank(true, &[(0.05, all(3)), (value, all(3)), (0.15, all(3))]);
+        let heights = FileFinding::BadHeights {
+            layers: 1,
+            first_layer: 2,
+        };
+        assert_eq!(warnings(&file.bytes), std::slice::from_ref(&heights));
+        assert_eq!(inspected(&file.bytes).height_mm, 0.15);
+        // The first layer's exposure, and a nominal value.
+        file.f32(195_477 + 10, value).f32(195_369, value);
+        let exposures = FileFinding::BadExposures {
+            layers: 1,
+            first_layer: 1,
+        };
+        let found = inspected(&file.bytes);
+        let expected = [heights, FileFinding::BadNominalValues, exposures];
+        assert_eq!(found.warnings, expected);
+        assert_eq!(found.about.bottom_exposure_s, None);
+        assert_eq!(found.exposure_range_s, Some([2.75, 2.75]));
+        assert_eq!(found.thickness_range_mm, Some([0.05, 0.05]));
+    }
+}

@@ -228,3 +228,23 @@ fn what_cannot_be_read_says_why() {
         PrintFileError::Truncated { .. }
     ));
 }
+
+#[test]
+fn thicknesses_and_exposures_that_are_no_numbers_are_found() {
+    // Heights are sums of thicknesses, so all above are none either.
+    let layers = [(0.05, white()), (f32::NAN, white()), (0.05, white())];
+    let (mut file, tables) = blank(517, &layers);
+    let heights = FileFinding::BadHeights {
+        layers: 2,
+        first_layer: 2,
+    };
+    assert_eq!(warnings(&file.bytes), std::slice::from_ref(&heights));
+    file.f32(tables.layers + 20 + 16, f32::NAN)
+        .f32(tables.header + 0x18, f32::INFINITY);
+    let exposures = FileFinding::BadExposures {
+        layers: 1,
+        first_layer: 1,
+    };
+    let expected = [heights, FileFinding::BadNominalValues, exposures];
+    assert_eq!(warnings(&file.bytes), expected);
+}

@@ -3,7 +3,7 @@
 use serde_json::Value;
 
 use super::bytes::clean;
-use super::container::{Archive, number};
+use super::container::{Archive, any_number, number};
 use super::preview::Picture;
 use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, UnreadKind, positive};
 
@@ -55,8 +55,8 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
                 plate("print_zsize"),
             ],
             layer_mm: positive(number(&slicing["zthick"])),
-            exposure_s: number(&slicing["exposure_time"]),
-            bottom_exposure_s: number(&slicing["bott_time"]),
+            exposure_s: any_number(&slicing["exposure_time"]),
+            bottom_exposure_s: any_number(&slicing["bott_time"]),
             bottom_layers: number(&slicing["bott_layers"]).map(|layers| layers as u32),
             transition_layers: number(&resin["slice_extpara"]["transition_layercount"])
                 .map(|layers| layers as u32),
@@ -88,7 +88,7 @@ fn layer(entry: &Value, slicing: &Value) -> Option<Layer> {
     Some(Layer {
         z_mm: (z_mm * 1e6).round() / 1e6,
         thickness_mm,
-        exposure_s: number(&entry["exposure_time"]),
+        exposure_s: any_number(&entry["exposure_time"]),
         wait_before_exposure_s: number(&slicing["off_time"]),
         lift_mm: number(&entry["zup_height"]),
         lift_mm_min: by_minute(&entry["zup_speed"]),

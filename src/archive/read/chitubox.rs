@@ -36,10 +36,8 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         None => head.get("projectType") == Some(&"LCD_mirror"),
     };
     let (masks, layers) = layers(&text).ok_or_else(|| bad("each layer's mask and height"))?;
-    let number = |key: &str| {
-        let value = head.get(key).and_then(|value| value.parse::<f64>().ok());
-        value.filter(|value| value.is_finite())
-    };
+    let any_number = |key: &str| head.get(key).and_then(|value| value.parse::<f64>().ok());
+    let number = |key: &str| any_number(key).filter(|value| value.is_finite());
     let name = |key: &str| head.get(key).and_then(|value| clean(value));
     let previews = ["preview.png", "preview_cropping.png"].into_iter();
     let previews = previews.filter(|name| archive.has(name));
@@ -50,10 +48,10 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             plate_mm: [Some(length_x), Some(length_y), number("machineZ")],
             is_mirrored_x: Some(is_mirrored),
             is_mirrored_y: Some(false),
-            layer_mm: number("layerHeight"),
-            exposure_s: number("normalExposureTime"),
-            bottom_exposure_s: number("bottomLayerExposureTime")
-                .or_else(|| number("bottomLayExposureTime")),
+            layer_mm: any_number("layerHeight"),
+            exposure_s: any_number("normalExposureTime"),
+            bottom_exposure_s: any_number("bottomLayerExposureTime")
+                .or_else(|| any_number("bottomLayExposureTime")),
             bottom_layers: number("bottomLayerCount")
                 .or_else(|| number("bottomLayCount"))
                 .map(|layers| layers as u32),

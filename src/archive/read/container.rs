@@ -85,10 +85,14 @@ impl<'a> Archive<'a> {
     }
 }
 
-/// A number, which some programs write as text.
+/// A finite number, which some programs write as text.
 pub(super) fn number(value: &serde_json::Value) -> Option<f64> {
-    let number = value
+    any_number(value).filter(|number| number.is_finite())
+}
+
+/// A number likewise, finite or not: text may say `nan`.
+pub(super) fn any_number(value: &serde_json::Value) -> Option<f64> {
+    value
         .as_f64()
-        .or_else(|| value.as_str()?.trim().parse().ok());
-    number.filter(|number| number.is_finite())
+        .or_else(|| value.as_str()?.trim().parse().ok())
 }

@@ -102,9 +102,9 @@ fn about(fields: Fields<'_>, version: u32) -> Result<About, PrintFileError> {
         plate_mm,
         is_mirrored_x: Some(fields.u32(0x50)? != 0),
         is_mirrored_y: Some(false),
-        layer_mm: fields.finite(0x20)?,
-        exposure_s: fields.finite(0x24)?,
-        bottom_exposure_s: fields.finite(0x28)?,
+        layer_mm: Some(fields.f32(0x20)?),
+        exposure_s: Some(fields.f32(0x24)?),
+        bottom_exposure_s: Some(fields.f32(0x28)?),
         bottom_layers: Some(fields.u32(0x30)?),
         print_time_s: Some(f64::from(fields.u32(0x4C)?)),
         ..About::new(Format::Ctb, pixels, pixel_mm)
@@ -154,7 +154,7 @@ fn layers(fields: Fields<'_>, version: u32) -> Result<Table, PrintFileError> {
         let at = table + row * ROW;
         let mut layer = Layer {
             z_mm: fields.f32(at)?,
-            exposure_s: fields.finite(at + 4)?,
+            exposure_s: Some(fields.f32(at + 4)?),
             wait_before_exposure_s: fields.finite(at + 8)?,
             ..Layer::default()
         };

@@ -14,6 +14,22 @@ use super::{About, Layer, LayerFault};
 pub enum FileFinding {
     /// There is no layer.
     NoLayers,
+    /// Layers end at a height that is no finite number.
+    BadHeights {
+        /// How many.
+        layers: usize,
+        /// The first of them.
+        first_layer: usize,
+    },
+    /// Layers have an exposure that is no finite number.
+    BadExposures {
+        /// How many.
+        layers: usize,
+        /// The first of them.
+        first_layer: usize,
+    },
+    /// The nominal layer thickness or a nominal exposure is no finite number.
+    BadNominalValues,
     /// The first layer ends at or below the plate.
     FirstLayerBelowPlate {
         /// Its top, in millimetres.
@@ -108,20 +124,59 @@ impl<T> Tally<T> {
 /// Thicknesses that differ by less are equal: heights are rounded to a micrometre.
 const SAME_MM: f64 = 0.0015;
 
+/// Takes out exposures and nominal values that are not finite, and says which there were.
+pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<FileFinding> {
+    let take = |value: &mut Option<f64>| value.take_if(|value| !value.is_finite()).is_some();
+    let mut findings = Vec::new();
+    let nominal = [
+        &mut about.layer_mm,
+        &mut about.exposure_s,
+        &mut about.bottom_exposure_s,
+    ];
+    if nominal.map(take).contains(&true) {
+        findings.push(FileFinding::BadNominalValues);
+    }
+    let mut endless = Tally::default();
+    for (place, layer) in layers.iter_mut().enumerate() {
+        if take(&mut layer.exposure_s) {
+            endless.count(place + 1, ());
+        }
+    }
+    if let Some((first_layer, ())) = endless.first {
+        findings.push(FileFinding::BadExposures {
+            layers: endless.layers,
+            first_layer,
+        });
+    }
+    findings
+}
+
 /// What is wrong with heights and exposures.
 pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
     let mut findings = Vec::new();
     let Some(first) = layers.first() else {
         return vec![FileFinding::NoLayers];
     };
-    // What is no number is not above the plate either.
-    if first.z_mm.is_nan() || first.z_mm <= 0.0 {
+    let mut nowhere = Tally::default();
+    for (place, layer) in layers.iter().enumerate() {
+        if !layer.z_mm.is_finite() {
+            nowhere.count(place + 1, ());
+        }
+    }
+    if let Some((first_layer, ())) = nowhere.first {
+        findings.push(FileFinding::BadHeights {
+            layers: nowhere.layers,
+            first_layer,
+        });
+    }
+    let is_finite = |z_mm: f64| z_mm.is_finite();
+    if is_finite(first.z_mm) && first.z_mm <= 0.0 {
         findings.push(FileFinding::FirstLayerBelowPlate { z_mm: first.z_mm });
     }
     let mut fallen = Tally::default();
     for (place, pair) in layers.windows(2).enumerate() {
         let (below_mm, z_mm) = (pair[0].z_mm, pair[1].z_mm);
-        if below_mm.is_nan() || z_mm.is_nan() || z_mm <= below_mm {
+        if is_finite(below_mm) && is_finite(z_mm) && z_mm <= below_mm {
             fallen.count(place + 2, (z_mm, below_mm));
         }
     }
@@ -133,7 +188,10 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
             below_mm,
         });
     }
-    let thicknesses = || layers.iter().map(|layer| layer.thickness_mm);
+    let thicknesses = || {
+        let thicknesses = layers.iter().map(|layer| layer.thickness_mm);
+        thicknesses.filter(|thickness_mm| thickness_mm.is_finite())
+    };
     let thinnest_mm = thicknesses().fold(f64::INFINITY, f64::min);
     let thickest_mm = thicknesses().fold(f64::NEG_INFINITY, f64::max);
     if about.uses_layer_values == Some(false) && thickest_mm - thinnest_mm > SAME_MM {
@@ -194,6 +252,25 @@ impl std::fmt::Display for FileFinding {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NoLayers => f.write_str("the file has no layers; slice the model again"),
+            Self::BadHeights {
+                layers,
+                first_layer,
+            } => write!(
+                f,
+                "{} at a height that is no number, first layer {first_layer}; export the file again",
+                are(*layers, "ends", "end")
+            ),
+            Self::BadExposures {
+                layers,
+                first_layer,
+            } => write!(
+                f,
+                "{} an exposure that is no number, first layer {first_layer}; check the exposures and export the file again",
+                are(*layers, "has", "have")
+            ),
+            Self::BadNominalValues => f.write_str(
+                "the layer thickness or an exposure for all layers is no number; check the settings and export the file again",
+            ),
             Self::FirstLayerBelowPlate { z_mm } => write!(
                 f,
                 "the first layer ends at {z_mm} mm, not above the plate; slice the model again"

@@ -96,9 +96,9 @@ fn about(fields: Fields<'_>, version: String) -> Result<About, PrintFileError> {
         plate_mm,
         is_mirrored_x: Some(fields.u8(195_318)? != 0),
         is_mirrored_y: Some(fields.u8(195_319)? != 0),
-        layer_mm: fields.finite(195_332)?,
-        exposure_s: fields.finite(195_336)?,
-        bottom_exposure_s: fields.finite(195_369)?,
+        layer_mm: Some(fields.f32(195_332)?),
+        exposure_s: Some(fields.f32(195_336)?),
+        bottom_exposure_s: Some(fields.f32(195_369)?),
         bottom_layers: Some(fields.u32(195_373)?),
         transition_layers: Some(u32::from(fields.u16(195_475)?)),
         print_time_s: Some(f64::from(fields.u32(195_446)?)),
@@ -160,7 +160,7 @@ fn layer(fields: Fields<'_>, at: u64) -> Result<Layer, PrintFileError> {
     let wait = |offset: u64| fields.finite(at + offset);
     Ok(Layer {
         z_mm: fields.f32(at + 6)?,
-        exposure_s: fields.finite(at + 10)?,
+        exposure_s: Some(fields.f32(at + 10)?),
         wait_before_exposure_s: wait(before_exposure)?,
         wait_before_lift_s: wait(18)?.filter(|_| waits),
         wait_after_lift_s: wait(22)?.filter(|_| waits),

@@ -82,6 +82,14 @@ struct Contents {
     findings: Vec<FileFinding>,
 }
 
+impl Contents {
+    /// Takes out exposures and nominal values that are not finite, as if they were not stated, and keeps what was found.
+    fn take_not_finite(&mut self) {
+        let found = finding::take_not_finite(&mut self.about, &mut self.layers);
+        self.findings.splice(0..0, found);
+    }
+}
+
 /// How layers are encoded.
 #[derive(Debug, Clone, Copy)]
 enum Coding {
@@ -114,7 +122,7 @@ impl<'a> PrintFile<'a> {
     pub fn open(bytes: impl Into<Bytes<'a>>) -> Result<Self, PrintFileError> {
         let bytes = bytes.into();
         let start = bytes.as_ref();
-        let (archive, contents) = if goo::is(start) {
+        let (archive, mut contents) = if goo::is(start) {
             (None, goo::read(start)?)
         } else if let Some(magic) = ctb::magic(start) {
             (None, ctb::read(start, magic)?)
@@ -125,6 +133,7 @@ impl<'a> PrintFile<'a> {
             let contents = read_archive(&mut archive)?;
             (Some(archive), contents)
         };
+        contents.take_not_finite();
         let [width, height] = contents.about.pixels;
         let side = 1..=MAX_SIDE;
         if !side.contains(&width) || !side.contains(&height) {

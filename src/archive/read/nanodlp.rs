@@ -3,7 +3,7 @@
 
 use super::about::with_tops;
 use super::bytes::clean;
-use super::container::{Archive, number};
+use super::container::{Archive, any_number, number};
 use super::preview::Picture;
 use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
 
@@ -52,8 +52,8 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let bottom_mm = thickness("SupportDepth").unwrap_or(usual_mm);
     let bottom_layers = profile["SupportLayerNumber"].as_u64();
     let (usual_s, bottom_s) = (
-        number(&profile["CureTime"]),
-        number(&profile["SupportCureTime"]),
+        any_number(&profile["CureTime"]),
+        any_number(&profile["SupportCureTime"]),
     );
     let layers = (0..count).map(|layer| {
         let is_bottom = bottom_layers.is_some_and(|bottom| layer < bottom);

@@ -78,9 +78,9 @@ fn about(tables: Tables<'_>) -> Result<About, PrintFileError> {
     let bottom_layers = fields.finite(header + 0x24)?;
     let mut about = About {
         version: Some(version.to_string()),
-        layer_mm: fields.finite(header + 0x14)?,
-        exposure_s: fields.finite(header + 0x18)?,
-        bottom_exposure_s: fields.finite(header + 0x20)?,
+        layer_mm: Some(fields.f32(header + 0x14)?),
+        exposure_s: Some(fields.f32(header + 0x18)?),
+        bottom_exposure_s: Some(fields.f32(header + 0x20)?),
         bottom_layers: bottom_layers.map(|layers| layers.round() as u32),
         volume_ml: fields.finite(header + 0x34)?,
         weight_g: fields.finite(header + 0x44)?,
@@ -138,7 +138,7 @@ fn layers(tables: Tables<'_>) -> Result<Table, PrintFileError> {
         let lit = u64::from(fields.u32(at + 24)?);
         layers.push(Layer {
             thickness_mm: fields.f32(at + 20)?,
-            exposure_s: fields.finite(at + 16)?,
+            exposure_s: Some(fields.f32(at + 16)?),
             wait_before_exposure_s: wait_s,
             lift_mm: fields.finite(at + 8)?,
             lift_mm_min: by_minute(fields.finite(at + 12)?),

@@ -18,7 +18,7 @@ pub struct Inspection {
     pub about: About,
     /// Number of layers.
     pub layers: usize,
-    /// Top of the last layer, in millimetres.
+    /// Top of the last layer whose top is a finite number, in millimetres.
     pub height_mm: f64,
     /// The thinnest and the thickest layer, in millimetres; absent without layers.
     pub thickness_range_mm: Option<[f64; 2]>,
@@ -119,7 +119,9 @@ fn look_through(
                 let below = place.checked_sub(1).map(|below| layers[below].z_mm);
                 black.count(place + 1, below.unwrap_or(0.0));
             }
-            volume_mm3 += light.brightness as f64 / 255.0 * pixel_mm2 * layer.thickness_mm;
+            if layer.thickness_mm.is_finite() {
+                volume_mm3 += light.brightness as f64 / 255.0 * pixel_mm2 * layer.thickness_mm;
+            }
             layer_values.push(LayerInspection {
                 layer,
                 lit_pixels: is_whole.then_some(light.lit),
@@ -149,10 +151,11 @@ fn look_through(
             None => warnings.push(FileFinding::BadPreview { preview: place + 1 }),
         }
     }
+    let mut tops_mm = layers.iter().map(|layer| layer.z_mm);
     Ok(Inspection {
         about: about.clone(),
         layers: layers.len(),
-        height_mm: layers.last().map_or(0.0, |layer| layer.z_mm),
+        height_mm: tops_mm.rfind(|z_mm| z_mm.is_finite()).unwrap_or(0.0),
         thickness_range_mm: range(layers.iter().map(|layer| layer.thickness_mm)),
         exposure_range_s: range(layers.iter().filter_map(|layer| layer.exposure_s)),
         lit_volume_ml: volume_mm3 / 1000.0,
@@ -192,9 +195,10 @@ fn light(
     (light, mask, decoded.err())
 }
 
-/// The least and the greatest value.
+/// The least and the greatest of the finite values.
 fn range(values: impl Iterator<Item = f64>) -> Option<[f64; 2]> {
-    values.fold(None, |range: Option<[f64; 2]>, value| {
+    let finite = values.filter(|value| value.is_finite());
+    finite.fold(None, |range: Option<[f64; 2]>, value| {
         let [least, greatest] = range.unwrap_or([value; 2]);
         Some([least.min(value), greatest.max(value)])
     })

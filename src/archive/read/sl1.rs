@@ -81,8 +81,8 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             is_mirrored_y: Some(flag("display_mirror_y")),
             is_turned,
             layer_mm: Some(later_mm),
-            exposure_s: config.number("expTime"),
-            bottom_exposure_s: config.number("expTimeFirst"),
+            exposure_s: config.any_number("expTime"),
+            bottom_exposure_s: config.any_number("expTimeFirst"),
             bottom_layers: Some(BOTTOM_LAYERS),
             transition_layers: config.number("numFade").map(|layers| layers as u32),
             print_time_s: config.number("printTime"),
@@ -123,9 +123,13 @@ impl Ini {
         self.values.get(key).map(String::as_str)
     }
 
+    /// A number, finite or not.
+    fn any_number(&self, key: &str) -> Option<f64> {
+        self.get(key)?.parse().ok()
+    }
+
     fn number(&self, key: &str) -> Option<f64> {
-        let value = self.get(key)?.parse::<f64>().ok();
-        value.filter(|value| value.is_finite())
+        self.any_number(key).filter(|value| value.is_finite())
     }
 
     fn length(&self, key: &str) -> Result<f64, PrintFileError> {

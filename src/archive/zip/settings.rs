@@ -68,6 +68,7 @@ impl Settings {
                 "$bottom_layers",
                 resin.bottom_layers.min(layers.len()) as u64,
             ),
+            ("$transition_layers", job.transition_layers as u64),
             ("$has_layer_settings", u64::from(job.needs_layer_settings())),
             ("$time_s", job.print_time_s().round() as u64),
         ];

@@ -74,8 +74,7 @@ fn config(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
         ("jobDir", JOB.to_owned()),
         ("layerHeight", millionths(layer_mm)),
         ("materialName", name),
-        // No transition layers: all bottom layers have the same exposure.
-        ("numFade", "0".to_owned()),
+        ("numFade", job.transition_layers.to_string()),
         ("numFast", (layers.len() - slow).to_string()),
         ("numSlow", slow.to_string()),
         ("printProfile", format!("{} mm", millionths(layer_mm))),
@@ -117,7 +116,7 @@ fn prusaslicer(job: &PrintJob<'_>, layers: &[LayerEntry]) -> String {
             "initial_exposure_time",
             thousandths(job.resin.bottom_exposure_s),
         ),
-        ("faded_layers", "0".to_owned()),
+        ("faded_layers", job.transition_layers.to_string()),
         ("gamma_correction", "1".to_owned()),
     ])
 }

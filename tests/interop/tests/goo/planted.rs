@@ -79,6 +79,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
         masks: MaskSource::Runs(&source),
         height_mm: 1.0,
         resin: &Resin::default(),
+        transition_layers: 0,
         resin_ml: 1.0,
         printer: None,
         best_uniform: &|| None,

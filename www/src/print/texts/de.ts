@@ -57,6 +57,12 @@ export const faults = ({ count }: Format): FaultSentences => ({
 
 export const findings = ({ count, counted, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "Die Datei hat keine Schichten; zerlegen Sie das Modell noch einmal.",
+  "bad-heights": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "Schicht endet", other: "Schichten enden" })} bei einer Höhe, die keine Zahl ist, zuerst Schicht ${count(first_layer)}; exportieren Sie die Datei neu.`,
+  "bad-exposures": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "Schicht hat", other: "Schichten haben" })} eine Belichtung, die keine Zahl ist, zuerst Schicht ${count(first_layer)}; prüfen Sie die Belichtungen und exportieren Sie die Datei neu.`,
+  "bad-nominal-values": () =>
+    "Die Schichtdicke oder eine Belichtung für alle Schichten ist keine Zahl; prüfen Sie die Einstellungen und exportieren Sie die Datei neu.",
   "first-layer-below-plate": ({ z_mm }) =>
     `Die erste Schicht endet bei ${mm(z_mm)}, also nicht über der Platte; zerlegen Sie das Modell noch einmal.`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>

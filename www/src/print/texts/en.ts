@@ -59,6 +59,12 @@ export const faults = ({ count }: Format): FaultSentences => ({
 
 export const findings = ({ count, counted, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "The file has no layers; slice the model again.",
+  "bad-heights": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "layer ends", other: "layers end" })} at a height that is no number, first layer ${count(first_layer)}; export the file again.`,
+  "bad-exposures": ({ layers, first_layer }) =>
+    `${counted(layers, HAVE)} an exposure that is no number, first layer ${count(first_layer)}; check the exposures and export the file again.`,
+  "bad-nominal-values": () =>
+    "The layer thickness or an exposure for all layers is no number; check the settings and export the file again.",
   "first-layer-below-plate": ({ z_mm }) => `The first layer ends at ${mm(z_mm)}, not above the plate; slice the model again.`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>
     `${counted(layers, { one: "layer ends", other: "layers end" })} not above the layer below, first layer ${count(first_layer)}, at ${mm(z_mm)} after ${mm(below_mm)}; slice the model again.`,

@@ -57,6 +57,12 @@ export const faults = ({ count }: Format): FaultSentences => ({
 
 export const findings = ({ count, counted, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "El archivo no tiene capas; vuelva a dividir el modelo.",
+  "bad-heights": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "capa acaba", other: "capas acaban" })} a una altura que no es un número, la primera es la ${count(first_layer)}; exporte el archivo de nuevo.`,
+  "bad-exposures": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "capa tiene", other: "capas tienen" })} una exposición que no es un número, la primera es la ${count(first_layer)}; revise las exposiciones y exporte el archivo de nuevo.`,
+  "bad-nominal-values": () =>
+    "El espesor de capa o una exposición para todas las capas no es un número; revise los ajustes y exporte el archivo de nuevo.",
   "first-layer-below-plate": ({ z_mm }) =>
     `La primera capa acaba en ${mm(z_mm)}, no por encima de la plataforma; vuelva a dividir el modelo.`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>

@@ -57,6 +57,12 @@ export const faults = ({ count }: Format): FaultSentences => ({
 
 export const findings = ({ count, counted, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "Le fichier n’a aucune couche ; découpez à nouveau le modèle.",
+  "bad-heights": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "couche finit", other: "couches finissent" })} à une hauteur qui n’est pas un nombre, d’abord la couche ${count(first_layer)} ; exportez à nouveau le fichier.`,
+  "bad-exposures": ({ layers, first_layer }) =>
+    `${counted(layers, { one: "couche a", other: "couches ont" })} une exposition qui n’est pas un nombre, d’abord la couche ${count(first_layer)} ; vérifiez les expositions et exportez à nouveau le fichier.`,
+  "bad-nominal-values": () =>
+    "L’épaisseur de couche ou une exposition pour toutes les couches n’est pas un nombre ; vérifiez les réglages et exportez à nouveau le fichier.",
   "first-layer-below-plate": ({ z_mm }) =>
     `La première couche finit à ${mm(z_mm)}, pas au-dessus du plateau ; découpez à nouveau le modèle.`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>

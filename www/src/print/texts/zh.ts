@@ -55,6 +55,11 @@ export const faults = ({ count }: Format): FaultSentences => ({
 
 export const findings = ({ count, mm, height }: Format): FindingSentences => ({
   "no-layers": () => "文件中没有任何层；请重新切片。",
+  "bad-heights": ({ layers, first_layer }) =>
+    `有 ${count(layers)} 层的高度不是数字，首先是第 ${count(first_layer)} 层；请重新导出文件。`,
+  "bad-exposures": ({ layers, first_layer }) =>
+    `有 ${count(layers)} 层的曝光不是数字，首先是第 ${count(first_layer)} 层；请检查曝光并重新导出文件。`,
+  "bad-nominal-values": () => "统一的层厚或曝光不是数字；请检查设置并重新导出文件。",
   "first-layer-below-plate": ({ z_mm }) => `第一层的顶面位于 ${mm(z_mm)}，不在平台之上；请重新切片。`,
   "heights-not-ascending": ({ layers, first_layer, z_mm, below_mm }) =>
     `有 ${count(layers)} 层不高于下面一层，首先是第 ${count(first_layer)} 层：${mm(below_mm)} 之后为 ${mm(z_mm)}；请重新切片。`,

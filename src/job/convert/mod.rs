@@ -1,9 +1,12 @@
 //! A print file made from another: the same layers, exposures and pixels, in another format or for another printer.
 
+mod settings;
+
 use std::sync::Arc;
 
 use serde::Serialize;
 use serde_json::json;
+use settings::Exposures;
 
 use super::resolve::find_printer;
 use super::{OptionsError, SCHEMA};
@@ -11,7 +14,7 @@ use crate::archive::read::{
     About, FileFinding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
 };
 use crate::archive::{self, ArchiveError, Layer, Look, Manifest, PrintJob, Screen};
-use crate::format::{Format, FormatThicknesses};
+use crate::format::Format;
 use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
 use crate::parallel;
 use crate::printer::{Printer, PrinterChoice};
@@ -42,6 +45,7 @@ pub struct Conversion<'a> {
     flips: Flips,
     layers: Vec<Layer>,
     resin: Resin,
+    transition_layers: usize,
     volume_ml: f64,
     losses: Vec<Loss>,
 }
@@ -155,10 +159,9 @@ pub enum Loss {
     Mirroring,
 }
 
-/// Lengths that differ by less are equal: files round them.
-const SAME_MM: f64 = 1e-6;
-/// No printer lifts as slowly as this, in millimetres per minute.
-const SLOWEST_MM_MIN: f64 = 1.0;
+/// Heights and thicknesses that differ by no more are one: files round heights to a micrometre, and the rest is for the last
+/// digits of sums.
+const SAME_MM: f64 = 1.001e-3;
 /// Sides of pixels that differ by a smaller part are equal: files state them to the micrometre.
 const SAME_PITCH: f64 = 0.02;
 
@@ -176,6 +179,9 @@ impl<'a> Conversion<'a> {
             matches!(
                 finding,
                 FileFinding::NoLayers
+                    | FileFinding::BadHeights { .. }
+                    | FileFinding::BadExposures { .. }
+                    | FileFinding::BadNominalValues
                     | FileFinding::FirstLayerBelowPlate { .. }
                     | FileFinding::HeightsNotAscending { .. }
                     | FileFinding::BadLayers { .. }
@@ -212,13 +218,17 @@ impl<'a> Conversion<'a> {
         for side_mm in screen.pitch_mm {
             Quantity::Pitch.check(side_mm)?;
         }
+        let layers_read = settings::without_noise(about, file.layers());
         if let Some(printer) = &printer {
-            check_printer(printer, &screen, file.layers())?;
+            check_printer(printer, &screen, &layers_read)?;
         }
-        let (resin, exposure_s) = exposures(about, file.layers(), target.resin.as_ref())?;
+        let Exposures {
+            resin,
+            exposure_s,
+            transition_layers,
+        } = settings::exposures(about, &layers_read, target.resin.as_ref())?;
         resin.check()?;
-        let layers: Vec<Layer> = file
-            .layers()
+        let layers: Vec<Layer> = layers_read
             .iter()
             .zip(exposure_s)
             .map(|(layer, exposure_s)| Layer {
@@ -227,11 +237,11 @@ impl<'a> Conversion<'a> {
                 exposure_s,
             })
             .collect();
-        check_exposures(format, &layers, &resin)?;
+        settings::check_exposures(format, &layers, resin.bottom_layers, transition_layers)?;
 
         let mut losses = Vec::new();
         if target.resin.is_none() {
-            losses.extend(lost_moves(file.layers(), &resin));
+            losses.extend(settings::lost_moves(file.layers(), &resin));
         }
         let (before, after) = (levels(about.format), levels(format));
         if has_greys && after < before {
@@ -249,6 +259,7 @@ impl<'a> Conversion<'a> {
             flips,
             layers,
             resin,
+            transition_layers,
             volume_ml: stated_ml.unwrap_or(inspection.lit_volume_ml),
             losses,
         })
@@ -290,6 +301,7 @@ impl<'a> Conversion<'a> {
             masks: archive::MaskSource::Runs(self),
             height_mm,
             resin: &self.resin,
+            transition_layers: self.transition_layers,
             resin_ml: self.volume_ml,
             printer: self.printer(),
             look: &|| self.look(),
@@ -426,127 +438,6 @@ fn check_printer(
         }),
         None => Ok(()),
     }
-}
-
-/// Refuses several exposures for a format that has one above the bottom layers.
-fn check_exposures(format: Format, layers: &[Layer], resin: &Resin) -> Result<(), ConvertError> {
-    let upper = layers.get(resin.bottom_layers..).unwrap_or_default();
-    let is_one = upper
-        .windows(2)
-        .all(|pair| (pair[0].exposure_s - pair[1].exposure_s).abs() < 1e-3);
-    if is_one || format.thicknesses() == FormatThicknesses::Any {
-        return Ok(());
-    }
-    Err(ConvertError::OneExposure { format })
-}
-
-/// The resin of the new file, and the exposure of each layer in seconds.
-fn exposures(
-    about: &About,
-    layers: &[LayerRead],
-    resin: Option<&Resin>,
-) -> Result<(Resin, Vec<f64>), ConvertError> {
-    if let Some(resin) = resin {
-        let thickness_mm: Vec<f64> = layers.iter().map(|layer| layer.thickness_mm).collect();
-        return Ok((resin.clone(), resin.exposures_s(&thickness_mm)));
-    }
-    let bottom_layers = about.bottom_layers.unwrap_or(0) as usize;
-    let faded = about.transition_layers.unwrap_or(0) as usize;
-    let positive = |value: Option<f64>| value.filter(|value| *value > 0.0);
-    let exposure_of = |place: usize| {
-        let stated = positive(layers[place].exposure_s);
-        let upper_s = || positive(about.exposure_s);
-        let nominal = || match (
-            positive(about.bottom_exposure_s),
-            place.checked_sub(bottom_layers),
-        ) {
-            (Some(bottom_s), None) => Some(bottom_s),
-            (Some(bottom_s), Some(above)) if above < faded => {
-                let part = (above + 1) as f64 / (faded + 1) as f64;
-                upper_s().map(|upper_s| bottom_s + (upper_s - bottom_s) * part)
-            }
-            _ => upper_s(),
-        };
-        stated.or_else(nominal).ok_or(ConvertError::NoExposure)
-    };
-    let exposure_s = (0..layers.len()).map(exposure_of);
-    let exposure_s: Vec<f64> = exposure_s.collect::<Result<_, _>>()?;
-
-    let usual = &layers[layers.len() / 2];
-    let usual_s = exposure_s[layers.len() / 2];
-    let default = Resin::default();
-    // Layers that are exposed like the first one, if the file does not count them.
-    let like_first = exposure_s
-        .iter()
-        .take_while(|&&layer_s| layer_s == exposure_s[0]);
-    let like_first = match like_first.count() {
-        count if count < layers.len() => count,
-        _ => 0,
-    };
-    // Files for vats that tilt name a lift that takes forever.
-    let moves = moves(usual).filter(|[_, lift_mm_min, _]| *lift_mm_min >= SLOWEST_MM_MIN);
-    let [lift_mm, lift_mm_min, return_mm_min] =
-        moves.unwrap_or([default.lift_mm, default.lift_mm_min, default.return_mm_min]);
-    let resin = Resin {
-        name: about.resin.clone().unwrap_or(default.name),
-        layer_mm: usual.thickness_mm,
-        exposure_s: usual_s,
-        bottom_layers: about
-            .bottom_layers
-            .map_or(like_first, |layers| layers as usize),
-        bottom_exposure_s: exposure_s[0],
-        wait_s: rests_s(usual).map_or(default.wait_s, |rests_s| rests_s.iter().sum()),
-        lift_mm,
-        lift_mm_min,
-        return_mm_min,
-        density_g_ml: density(about).unwrap_or(default.density_g_ml),
-        ..default
-    };
-    Ok((resin, exposure_s))
-}
-
-/// The density that weight and volume say, if both are stated.
-fn density(about: &About) -> Option<f64> {
-    let density = about.weight_g? / about.volume_ml?;
-    (0.5..5.0).contains(&density).then_some(density)
-}
-
-/// Lift of a layer in millimetres, and speeds up and down in millimetres per minute, if all are stated.
-fn moves(layer: &LayerRead) -> Option<[f64; 3]> {
-    let moves = [layer.lift_mm?, layer.lift_mm_min?, layer.retract_mm_min?];
-    moves.iter().all(|number| *number > 0.0).then_some(moves)
-}
-
-/// The rests of a layer before its exposure, before its lift and after it, in seconds, if any is stated.
-fn rests_s(layer: &LayerRead) -> Option<[f64; 3]> {
-    let rests_s = [
-        layer.wait_before_exposure_s,
-        layer.wait_before_lift_s,
-        layer.wait_after_lift_s,
-    ];
-    let is_stated = rests_s.iter().any(Option::is_some);
-    is_stated.then(|| rests_s.map(Option::unwrap_or_default))
-}
-
-/// What one lift and one rest for all layers lose.
-fn lost_moves(layers: &[LayerRead], resin: &Resin) -> Vec<Loss> {
-    let mut losses = Vec::new();
-    let usual = &layers[layers.len() / 2];
-    if layers.iter().any(|layer| moves(layer) != moves(usual)) {
-        losses.push(Loss::Moves {
-            layer: layers.len() / 2 + 1,
-        });
-    }
-    let rests_s = layers.iter().filter_map(rests_s);
-    if rests_s
-        .into_iter()
-        .any(|rests_s| rests_s != [resin.wait_s, 0.0, 0.0])
-    {
-        losses.push(Loss::Rests {
-            wait_s: resin.wait_s,
-        });
-    }
-    losses
 }
 
 /// The number of greys of a format, black and white included.
