@@ -44,7 +44,7 @@ pub enum Warning {
         /// Edges at which they disagree.
         edges: usize,
     },
-    /// The mesh has edges without a partner; its holes were closed by flat caps.
+    /// The mesh has edges without a partner; its holes were closed by caps.
     OpenMesh {
         /// Edges without a partner.
         open_edges: usize,
@@ -217,7 +217,7 @@ impl Warning {
             ),
             Self::OpenMesh { open_edges, holes } => write!(
                 f,
-                "the mesh is not closed: {} without a partner, {} closed by flat caps; look at the masks",
+                "the mesh is not closed: {} without a partner, {} closed by caps; look at the masks",
                 counted(*open_edges, "edge"),
                 counted(*holes, "hole"),
             ),
@@ -300,7 +300,7 @@ impl std::fmt::Display for Warning {
             | Self::Unsupported { .. } => self.of_preparing(f),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
-                "{unclosed} of {rays} rays pass holes of the mesh, which flat caps close; look at the masks"
+                "{unclosed} of {rays} rays pass holes of the mesh, which caps close; look at the masks"
             ),
             Self::ToleranceExceeded {
                 metric,

@@ -233,6 +233,57 @@ fn whatever_is_missing_or_flipped_the_mesh_is_closed_in_the_end() {
     }
 }
 
+/// The generalised winding number, by sums of solid angles: an oracle for what is inside.
+fn winding(triangles: impl Iterator<Item = [DVec3; 3]>, point: DVec3) -> f64 {
+    let angles = triangles.map(|corners| {
+        let [a, b, c] = corners.map(|corner| corner - point);
+        let [x, y, z] = [a, b, c].map(DVec3::length);
+        let rest = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+        2.0 * a.dot(b.cross(c)).atan2(rest)
+    });
+    angles.sum::<f64>() / (4.0 * std::f64::consts::PI)
+}
+
+#[test]
+fn wide_bent_holes_are_closed_where_the_winding_number_is_one_half() {
+    let saddle = |part: f32| {
+        let mut ball = solids::sphere(10.0, 5);
+        ball.retain(|&[a, b, c]| {
+            let middle = (a + b + c) / 3.0;
+            middle.z < 2.0 + part * (middle.x * middle.x - middle.y * middle.y) / 10.0
+        });
+        ball
+    };
+    // A half pipe: its border runs along the floor and over both ends.
+    let mut pipe = solids::cylinder(6.0, 20.0, 16);
+    pipe.retain(|corners| corners.iter().all(|corner| corner.x < 0.1));
+    let mut random = fastrand::Rng::with_seed(5);
+    for (name, triangles) in [
+        ("flat", saddle(0.0)),
+        ("saddle", saddle(4.0)),
+        ("half pipe", pipe),
+    ] {
+        let mesh = Mesh::from_triangles(&triangles).unwrap();
+        assert_eq!((mesh.holes, unbalanced_edges(&mesh)), (1, 0), "{name}");
+        let open = || triangles.iter().map(|it| it.map(Vec3::as_dvec3));
+        let closed = || (0..mesh.facets.len()).map(|facet| mesh.corners(facet));
+        let bounds = mesh.bounds();
+        let mut differing = 0;
+        for _ in 0..1000 {
+            let part = DVec3::from_array(std::array::from_fn(|_| random.f64()));
+            let point = bounds.min + bounds.size() * part;
+            let exact = winding(open(), point);
+            if (exact > 0.5) != (winding(closed(), point).round() != 0.0) {
+                differing += 1;
+                assert!((exact - 0.5).abs() < 0.1, "{name}: {exact}");
+            }
+        }
+        println!("{name}: {differing}");
+        // A fan over the saddle is wrong twice as often.
+        assert!(differing <= 25, "{name}: {differing}");
+    }
+}
+
 #[test]
 fn a_hole_with_a_long_border_is_closed_by_a_fan() {
     let quarter = 20_000;

@@ -57,7 +57,7 @@ pub struct MeshInfo {
     pub closed: bool,
     /// Number of edges that are open or inconsistently oriented.
     pub open_edges: usize,
-    /// Number of holes that were closed by flat caps.
+    /// Number of holes that were closed by caps.
     pub holes: usize,
     /// Number of facets that were turned over, as they faced the other way than those beside them or than their body.
     pub turned_facets: usize,

@@ -5,7 +5,7 @@
 pub enum FacetClass {
     /// The surface of the model. Profiles measure these facets alone.
     Surface,
-    /// A flat cap that closes a hole of the surface.
+    /// A cap that closes a hole of the surface.
     Cap,
     /// The wall of a void in the model: the surface of a body that is not printed.
     Void,

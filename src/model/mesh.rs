@@ -8,6 +8,7 @@ use serde::Serialize;
 
 use super::bodies::misoriented;
 use super::class::{FacetClass, FacetClasses};
+use super::curved_cap::Bent;
 use super::edges::{Neighbours, edges};
 use super::facing::facing;
 use super::holes;
@@ -94,7 +95,7 @@ pub struct Mesh {
     pub turned_facets: usize,
     /// Edges at which the facets beside them cannot all face the same way, as on a Möbius strip, or where three meet.
     pub contradictory_edges: usize,
-    /// The first of the vertices that are centroids of caps, if there are any; all before it are the model's.
+    /// The first of the vertices that are centroids of fans, if there are any.
     centroids_from: u32,
 }
 
@@ -136,8 +137,16 @@ impl Mesh {
             found = edges(vertices.len(), &facets);
         }
         let loops = holes::loops(&found.open);
-        let centroids_from = vertices.len() as u32;
+        let side = sides(&vertices).max_element();
+        let mut flat = Vec::new();
         for hole in &loops {
+            match Bent::of(hole, &vertices, side) {
+                Some(bent) => bent.cap(hole, &mut vertices, &mut facets),
+                None => flat.push(hole),
+            }
+        }
+        let centroids_from = vertices.len() as u32;
+        for hole in flat {
             holes::cap(hole, &mut vertices, &mut facets);
         }
         let mut mesh = Self {
@@ -453,6 +462,15 @@ fn rounding(vertices: &[Vec3]) -> f64 {
         .iter()
         .fold(Vec3::ZERO, |most, it| most.max(it.abs()));
     f64::from(most.max_element()) * f64::from(f32::EPSILON) / 2.0
+}
+
+/// The extent of vertices along each axis.
+fn sides(vertices: &[Vec3]) -> DVec3 {
+    let (mut min, mut max) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
+    for vertex in vertices {
+        (min, max) = (min.min(*vertex), max.max(*vertex));
+    }
+    max.as_dvec3() - min.as_dvec3()
 }
 
 /// Whether a facet has an area and a slope. Where its height is a matter of rounding, its normal is as well.

@@ -3,6 +3,7 @@
 mod bodies;
 mod class;
 pub(crate) mod crossing;
+mod curved_cap;
 mod edges;
 mod facet_lists;
 mod facing;

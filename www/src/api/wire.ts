@@ -28,6 +28,7 @@ export type {
   ModelUnit,
   Peel,
   Planner,
+  PartKind,
   PlannerReport,
   BestUniform,
   PlateModelReport,

@@ -43,6 +43,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "stl-truncated": "cutShort",
   "unknown-file-kind": "notModel",
   "other-file-kind": "notModel",
+  "no-plate": "empty",
   "stl-wrong-facet-count": "damaged",
   "stl-not-finite": "damaged",
   "stl-syntax": "damaged",

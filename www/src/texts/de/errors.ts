@@ -45,6 +45,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   ...readers({ count }),
   "file-empty": () => "Die Datei ist leer; exportieren Sie das Modell noch einmal.",
   "unknown-file-kind": () => "Das ist kein Modell, das Cusp liest; exportieren Sie es als STL, 3MF oder OBJ.",
+  "no-plate": ({ plate_number, plates }) => `Es gibt keine Platte ${count(plate_number)}: Die Datei hat ${count(plates)}.`,
   "other-file-kind": ({ kind }) =>
     flatKind(kind, { picture: "ein Bild", document: "ein Dokument", drawing: "eine Zeichnung" }, (noun) => `Das ist ${noun} (${FILE_KINDS[kind]}); Cusp öffnet STL, 3MF, OBJ und Druckdateien.`) ??
     `Das ist eine ${FILE_KINDS[kind]}-Datei, die Cusp nicht liest; ${adviceOn(kind, {

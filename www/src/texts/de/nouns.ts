@@ -1,4 +1,4 @@
-import type { ModelUnit } from "../../api/wire.js";
+import type { ModelUnit, PartKind } from "../../api/wire.js";
 import type { GpuFaults } from "../sentences.js";
 
 /** Nouns that are counted, in the singular and the plural. */
@@ -22,4 +22,11 @@ export const FAULTS: GpuFaults = {
   "too-many-hits": "das Modell hat mehr Oberflächenpunkte, als ihre Puffer fassen",
   "bad-offsets": "sie lieferte Positionen, die nicht zusammenpassen",
   "out-of-memory": "der Speicher reichte nicht",
+};
+
+export const PART_KINDS: Readonly<Record<PartKind, string>> = {
+  negative: "Negativteil",
+  modifier: "Modifikator",
+  "support-blocker": "Stützenblocker",
+  "support-enforcer": "Stützenverstärker",
 };

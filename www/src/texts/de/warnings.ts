@@ -1,6 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } from "./nouns.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PART_KINDS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
@@ -8,8 +8,11 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} falsch herum, wurden umgedreht.`,
   unorientable: ({ edges }) => `An ${counted(edges, EDGES)} können nicht alle Dreiecke in dieselbe Richtung zeigen: was dort innen ist, ist geraten. Sehen Sie sich die Masken an.`,
   "open-mesh": ({ open_edges, holes }) =>
-    `Das Netz ist nicht geschlossen: ${counted(open_edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} eben geschlossen. Sehen Sie sich die Masken an.`,
+    `Das Netz ist nicht geschlossen: ${counted(open_edges, EDGES)} ohne Gegenstück, ${counted(holes, HOLES)} geschlossen. Sehen Sie sich die Masken an.`,
   "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} der Datei weggelassen: Stützen, Flächen oder nicht zum Drucken.`,
+  "subtracted-part": ({ name }) => `Das Teil „${name}“ wird abgezogen.`,
+  "skipped-part": ({ name, kind }) => `${PART_KINDS[kind]} „${name}“ wird weggelassen.`,
+  "other-plates": ({ plate_number, plates }) => `Platte ${count(plate_number)} von ${count(plates)} wird gelesen.`,
   "odd-size": ({ size_mm, readings }) =>
     `Die Datei nennt keine Einheit, und in Millimetern ist das Modell ${mm(size_mm)} lang; ` +
     readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} wären es ${mm(size_mm)}; `).join("") +
@@ -24,7 +27,7 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "support-astray": ({ point_number }) => `Stütze ${count(point_number)} liegt nicht auf dem Modell und wurde weggelassen. Setzen Sie sie auf die Oberfläche.`,
   unsupported: ({ points }) => `${counted(points, POINTS)} ohne Stütze, weil keine dorthin führt. Drehen Sie das Modell, oder wählen Sie leichtere Stützen.`,
   "unclosed-rays": ({ unclosed, rays }) =>
-    `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die eben geschlossen sind. Sehen Sie sich die Masken an.`,
+    `${count(unclosed)} von ${count(rays)} Strahlen gehen durch Löcher des Netzes, die geschlossen sind. Sehen Sie sich die Masken an.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `Der Fehler erreicht ${error(metric, max_error)}, mehr als die Toleranz von ${error(metric, tolerance)}.`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>

@@ -47,6 +47,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   ...readers({ count }),
   "file-empty": () => "The file is empty; export the model again.",
   "unknown-file-kind": () => "This is no model that Cusp reads; export it as STL, 3MF or OBJ.",
+  "no-plate": ({ plate_number, plates }) => `There is no plate ${count(plate_number)}: the file has ${count(plates)}.`,
   "other-file-kind": ({ kind }) =>
     flatKind(kind, { picture: "picture", document: "document", drawing: "drawing" }, (noun) => `This is a ${noun} (${FILE_KINDS[kind]}); Cusp opens STL, 3MF, OBJ and print files.`) ??
     `This is a ${FILE_KINDS[kind]} file, which Cusp does not read; ${adviceOn(kind, {

@@ -1,4 +1,4 @@
-import type { ModelUnit } from "../../api/wire.js";
+import type { ModelUnit, PartKind } from "../../api/wire.js";
 import type { GpuFaults } from "../sentences.js";
 
 /** Nouns that are counted, in the singular and the plural. */
@@ -23,4 +23,11 @@ export const FAULTS: GpuFaults = {
   "too-many-hits": "the model has more surface points than its buffers hold",
   "bad-offsets": "it returned offsets that do not add up",
   "out-of-memory": "there was not enough memory",
+};
+
+export const PART_KINDS: Readonly<Record<PartKind, string>> = {
+  negative: "negative part",
+  modifier: "modifier",
+  "support-blocker": "support blocker",
+  "support-enforcer": "support enforcer",
 };

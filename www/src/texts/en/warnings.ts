@@ -1,7 +1,7 @@
 /** Sentences on what users should know although the work went on, as the command line says them. */
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, POINTS, UNITS } from "./nouns.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PART_KINDS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
@@ -9,8 +9,11 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} facing the wrong way turned over.`,
   unorientable: ({ edges }) => `Facets cannot all face the same way at ${counted(edges, EDGES)}; what is inside there is a guess: look at the masks.`,
   "open-mesh": ({ open_edges, holes }) =>
-    `The mesh is not closed: ${counted(open_edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by flat caps; look at the masks.`,
+    `The mesh is not closed: ${counted(open_edges, EDGES)} without a partner, ${counted(holes, HOLES)} closed by caps; look at the masks.`,
   "skipped-objects": ({ objects }) => `${counted(objects, OBJECTS)} of the file left out: supports, surfaces, or not to be printed.`,
+  "subtracted-part": ({ name }) => `The part “${name}” is subtracted.`,
+  "skipped-part": ({ name, kind }) => `The ${PART_KINDS[kind]} “${name}” is left out.`,
+  "other-plates": ({ plate_number, plates }) => `Plate ${count(plate_number)} of ${count(plates)} is read.`,
   "odd-size": ({ size_mm, readings }) =>
     `The file states no unit, and in millimeters the model is ${mm(size_mm)} long; ` +
     readings.map(({ unit, size_mm }) => `in ${UNITS[unit]} it would be ${mm(size_mm)}; `).join("") +
@@ -25,7 +28,7 @@ export const warnings = ({ count, counted, mm, height, error, either }: Format):
   "support-astray": ({ point_number }) => `Support ${count(point_number)} is not on the model, and was left out; place it on the surface.`,
   unsupported: ({ points }) => `${counted(points, POINTS)} without a support, since none gets there; turn the model, or choose lighter supports.`,
   "unclosed-rays": ({ unclosed, rays }) =>
-    `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which flat caps close; look at the masks.`,
+    `${count(unclosed)} of ${count(rays)} rays pass holes of the mesh, which caps close; look at the masks.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `The error reaches ${error(metric, max_error)}, more than the tolerance of ${error(metric, tolerance)}.`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>

@@ -45,6 +45,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   ...readers({ count }),
   "file-empty": () => "El archivo está vacío; exporte el modelo de nuevo.",
   "unknown-file-kind": () => "No es un modelo que Cusp lea; expórtelo como STL, 3MF u OBJ.",
+  "no-plate": ({ plate_number, plates }) => `No hay placa ${count(plate_number)}: el archivo tiene ${count(plates)}.`,
   "other-file-kind": ({ kind }) =>
     flatKind(kind, { picture: "una imagen", document: "un documento", drawing: "un dibujo" }, (noun) => `Es ${noun} (${FILE_KINDS[kind]}); Cusp abre STL, 3MF, OBJ y archivos de impresión.`) ??
     `Es un archivo ${FILE_KINDS[kind]}, que Cusp no lee; ${adviceOn(kind, {

@@ -1,4 +1,4 @@
-import type { ModelUnit } from "../../api/wire.js";
+import type { ModelUnit, PartKind } from "../../api/wire.js";
 import type { GpuFaults } from "../sentences.js";
 
 /** Nouns that are counted, in the singular and the plural. */
@@ -23,4 +23,11 @@ export const FAULTS: GpuFaults = {
   "too-many-hits": "el modelo tiene más puntos de superficie de los que caben en sus búferes",
   "bad-offsets": "devolvió posiciones que no cuadran",
   "out-of-memory": "no hubo memoria suficiente",
+};
+
+export const PART_KINDS: Readonly<Record<PartKind, string>> = {
+  negative: "parte negativa",
+  modifier: "modificador",
+  "support-blocker": "bloqueador de soportes",
+  "support-enforcer": "forzador de soportes",
 };

@@ -1,6 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, POINTS, UNITS } from "./nouns.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PART_KINDS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
@@ -8,8 +8,11 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} del revés: se les dio la vuelta.`,
   unorientable: ({ edges }) => `En ${counted(edges, EDGES)} las facetas no pueden mirar todas hacia el mismo lado: lo que está dentro ahí es una suposición. Mire las máscaras.`,
   "open-mesh": ({ open_edges, holes }) =>
-    `La malla no está cerrada: ${counted(open_edges, EDGES)} sin pareja, ${counted(holes, HOLES)} con planos. Mire las máscaras.`,
+    `La malla no está cerrada: ${counted(open_edges, EDGES)} sin pareja, ${counted(holes, HOLES)}. Mire las máscaras.`,
   "skipped-objects": ({ objects }) => `Del archivo se omite: ${counted(objects, OBJECTS)}, que son soportes, superficies o no se imprimen.`,
+  "subtracted-part": ({ name }) => `La parte «${name}» se resta.`,
+  "skipped-part": ({ name, kind }) => `Se omite: ${PART_KINDS[kind]} «${name}».`,
+  "other-plates": ({ plate_number, plates }) => `Se lee la placa ${count(plate_number)} de ${count(plates)}.`,
   "odd-size": ({ size_mm, readings }) =>
     `El archivo no dice su unidad, y en milímetros el modelo mide ${mm(size_mm)}; ` +
     readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} serían ${mm(size_mm)}; `).join("") +
@@ -24,7 +27,7 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "support-astray": ({ point_number }) => `El soporte ${count(point_number)} no está sobre el modelo y se ha omitido; colóquelo en la superficie.`,
   unsupported: ({ points }) => `${counted(points, POINTS)} sin soporte, porque ninguno llega hasta allí; gire el modelo o elija soportes más ligeros.`,
   "unclosed-rays": ({ unclosed, rays }) =>
-    `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla, tapados con planos. Mire las máscaras.`,
+    `${count(unclosed)} de ${count(rays)} rayos atraviesan agujeros de la malla que se taparon. Mire las máscaras.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `El error llega a ${error(metric, max_error)}, más que la tolerancia de ${error(metric, tolerance)}.`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>

@@ -45,6 +45,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   ...readers({ count }),
   "file-empty": () => "Le fichier est vide ; exportez à nouveau le modèle.",
   "unknown-file-kind": () => "Ce n’est pas un modèle que Cusp lit ; exportez-le en STL, 3MF ou OBJ.",
+  "no-plate": ({ plate_number, plates }) => `Il n’y a pas de plateau ${count(plate_number)} : le fichier en a ${count(plates)}.`,
   "other-file-kind": ({ kind }) =>
     flatKind(kind, { picture: "une image", document: "un document", drawing: "un dessin" }, (noun) => `C’est ${noun} (${FILE_KINDS[kind]}) ; Cusp ouvre les STL, 3MF, OBJ et fichiers d’impression.`) ??
     `C’est un fichier ${FILE_KINDS[kind]}, que Cusp ne lit pas ; ${adviceOn(kind, {

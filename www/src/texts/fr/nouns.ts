@@ -1,4 +1,4 @@
-import type { ModelUnit } from "../../api/wire.js";
+import type { ModelUnit, PartKind } from "../../api/wire.js";
 import type { GpuFaults } from "../sentences.js";
 
 /** Nouns that are counted, in the singular and the plural. */
@@ -23,4 +23,11 @@ export const FAULTS: GpuFaults = {
   "too-many-hits": "le modèle a plus de points de surface que ses tampons n’en contiennent",
   "bad-offsets": "il a rendu des positions incohérentes",
   "out-of-memory": "la mémoire n’a pas suffi",
+};
+
+export const PART_KINDS: Readonly<Record<PartKind, string>> = {
+  negative: "pièce négative",
+  modifier: "modificateur",
+  "support-blocker": "bloqueur de supports",
+  "support-enforcer": "renfort de supports",
 };

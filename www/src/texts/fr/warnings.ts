@@ -1,6 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, POINTS, UNITS } from "./nouns.js";
+import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PART_KINDS, PARTS, POINTS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
@@ -8,8 +8,11 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} à l’envers : retournées.`,
   unorientable: ({ edges }) => `À ${counted(edges, EDGES)}, les facettes ne peuvent pas toutes être tournées du même côté : ce qui est dedans y est supposé. Regardez les masques.`,
   "open-mesh": ({ open_edges, holes }) =>
-    `Le maillage n’est pas fermé : ${counted(open_edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)} à plat. Regardez les masques.`,
+    `Le maillage n’est pas fermé : ${counted(open_edges, EDGES)} sans vis-à-vis, ${counted(holes, HOLES)}. Regardez les masques.`,
   "skipped-objects": ({ objects }) => `Du fichier sont omis : ${counted(objects, OBJECTS)}, des supports, des surfaces ou ce qui ne s’imprime pas.`,
+  "subtracted-part": ({ name }) => `La pièce « ${name} » est soustraite.`,
+  "skipped-part": ({ name, kind }) => `Laissé de côté : ${PART_KINDS[kind]} « ${name} ».`,
+  "other-plates": ({ plate_number, plates }) => `Le plateau ${count(plate_number)} sur ${count(plates)} est lu.`,
   "odd-size": ({ size_mm, readings }) =>
     `Le fichier ne dit pas son unité, et en millimètres le modèle mesure ${mm(size_mm)} ; ` +
     readings.map(({ unit, size_mm }) => `en ${UNITS[unit]} ce serait ${mm(size_mm)} ; `).join("") +
@@ -24,7 +27,7 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "support-astray": ({ point_number }) => `Le support ${count(point_number)} n’est pas sur le modèle et a été omis ; placez-le sur la surface.`,
   unsupported: ({ points }) => `${counted(points, POINTS)} sans support, car aucun n’y parvient ; tournez le modèle ou choisissez des supports plus légers.`,
   "unclosed-rays": ({ unclosed, rays }) =>
-    `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage, bouchés à plat. Regardez les masques.`,
+    `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage qui ont été bouchés. Regardez les masques.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `L’erreur atteint ${error(metric, max_error)}, plus que la tolérance de ${error(metric, tolerance)}.`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>

@@ -45,6 +45,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   ...readers({ count }),
   "file-empty": () => "文件是空的；请重新导出模型。",
   "unknown-file-kind": () => "这不是 Cusp 能读取的模型；请导出为 STL、3MF 或 OBJ。",
+  "no-plate": ({ plate_number, plates }) => `没有第 ${count(plate_number)} 块打印板：文件有 ${count(plates)} 块。`,
   "other-file-kind": ({ kind }) =>
     flatKind(kind, { picture: "图片", document: "文档", drawing: "图纸" }, (noun) => `这是${noun}（${FILE_KINDS[kind]}）；Cusp 可打开 STL、3MF、OBJ 和打印文件。`) ??
     `这是 ${FILE_KINDS[kind]} 文件，Cusp 无法读取；${adviceOn(kind, {

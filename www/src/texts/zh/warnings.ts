@@ -1,6 +1,6 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { FAULTS, UNITS } from "./nouns.js";
+import { FAULTS, PART_KINDS, UNITS } from "./nouns.js";
 
 export const warnings = ({ count, mm, height, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
@@ -8,8 +8,11 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
   "turned-facets": ({ facets }) => `${count(facets)} 个面朝向错误，已翻转。`,
   unorientable: ({ edges }) => `有 ${count(edges)} 条边两侧的面无法朝向一致：该处的内外只是推测。请查看掩膜。`,
   "open-mesh": ({ open_edges, holes }) =>
-    `网格不封闭：${count(open_edges)} 条边没有对边，${count(holes)} 个孔洞已用平面封上。请查看掩膜。`,
+    `网格不封闭：${count(open_edges)} 条边没有对边，${count(holes)} 个孔洞已封上。请查看掩膜。`,
   "skipped-objects": ({ objects }) => `文件中略去 ${count(objects)} 个对象：支撑、曲面或不打印的对象。`,
+  "subtracted-part": ({ name }) => `零件“${name}”被减去。`,
+  "skipped-part": ({ name, kind }) => `${PART_KINDS[kind]}“${name}”未打印。`,
+  "other-plates": ({ plate_number, plates }) => `读取第 ${count(plate_number)} 块打印板，共 ${count(plates)} 块。`,
   "odd-size": ({ size_mm, readings }) =>
     `文件没有说明单位，按毫米计模型长 ${mm(size_mm)}；` +
     readings.map(({ unit, size_mm }) => `按${UNITS[unit]}计则为 ${mm(size_mm)}；`).join("") +
@@ -21,7 +24,7 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
   undrained: ({ basins }) => `空腔有 ${count(basins)} 处会滞留树脂：没有孔能水平或向下引出。请在该处开孔，或转动模型。`,
   "support-astray": ({ point_number }) => `第 ${count(point_number)} 个支撑不在模型上，已略去。请把它放在表面上。`,
   unsupported: ({ points }) => `有 ${count(points)} 处无法支撑：没有支撑能到达。请转动模型，或选用更轻的支撑。`,
-  "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过用平面封上的孔洞。请查看掩膜。`,
+  "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过已封上的孔洞。请查看掩膜。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
