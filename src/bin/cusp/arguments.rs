@@ -98,9 +98,12 @@ pub struct Target {
     format: Option<Format>,
     #[arg(long, value_name = "MM", value_parser = length, help = nozzle_help(), help_heading = "Printer")]
     nozzle: Option<f64>,
-    /// Resin, as a JSON file: exposures, bottom layers, lift
+    /// Resin, as a JSON file: exposures, bottom layers, lift, growth
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
+    /// Least width of a feature that making up for growth in x and y leaves: what is narrower stays as it is
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Printer")]
+    min_feature: Option<f64>,
 }
 
 impl Target {
@@ -129,6 +132,7 @@ impl Target {
         put(&mut options.mirror, self.mirror);
         put(&mut options.format, self.format);
         put(&mut options.nozzle_mm, self.nozzle);
+        put(&mut options.min_feature_mm, self.min_feature);
         Ok(())
     }
 }
