@@ -10,7 +10,7 @@ use cusp_slicer::job::{
 };
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
-use cusp_slicer::prepare::{AutoDrain, SupportProfile, SupportStrength, Supporting};
+use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportProfile, SupportStrength, Supporting};
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
@@ -191,8 +191,8 @@ pub struct Choices {
     /// Diameter of the infill's struts [default: 1]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     strut: Option<f64>,
-    /// Make a drain hole in the void: a point of the surface, a direction inward and a diameter; or `auto`, one wherever
-    /// resin would stay; repeatable
+    /// Make a drain hole in the void, or without --hollow in a closed cavity of the model: a point of the surface, a direction inward
+    /// and a diameter; or `auto`, one wherever resin would stay; repeatable
     #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
     drains: Vec<DrainArg>,
     /// Support the model: light, medium or heavy, auto for medium, none, or a JSON file of strength, sizes and points
@@ -419,7 +419,6 @@ impl Choices {
         let given = [
             self.cavity.map(|_| "--cavity"),
             self.infill.map(|_| "--infill"),
-            self.drains.first().map(|_| "--drain"),
         ];
         given.into_iter().flatten().next()
     }
@@ -427,6 +426,12 @@ impl Choices {
     fn put_hollow(&self, options: &mut Options) {
         if let Some(wall_mm) = self.hollow {
             options.hollow.get_or_insert_default().wall_mm = wall_mm;
+        } else if !self.drains.is_empty() {
+            // Holes alone drain the cavities that the model has.
+            options.hollow.get_or_insert_with(|| Hollowing {
+                wall_mm: 0.0,
+                ..Hollowing::default()
+            });
         }
         let Some(hollow) = &mut options.hollow else {
             return;
