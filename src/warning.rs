@@ -96,6 +96,8 @@ pub enum Warning {
         /// Diameter of the smallest cavity.
         cavity_mm: f64,
     },
+    /// Drain holes are asked for, and the model has no closed cavity that they could drain.
+    NothingToDrain,
     /// A drain hole does not meet the void, so it was left out.
     DrainAstray {
         /// Its place among those asked for, from 1.
@@ -105,6 +107,16 @@ pub enum Warning {
     Undrained {
         /// Number of such parts.
         basins: usize,
+    },
+    /// Cavities of the model stay closed, with the resin in them: they lie too near the outside to be joined to the void, or struts hold
+    /// the shell around them.
+    ClosedCavities {
+        /// Number of such cavities.
+        cavities: usize,
+        /// Their volume.
+        volume_mm3: f64,
+        /// A point in the largest, in millimetres from the middle of the plate.
+        at_mm: [f64; 3],
     },
     /// A support is asked for at a point that is not on the surface.
     SupportAstray {
@@ -122,6 +134,13 @@ pub enum Warning {
         unclosed: usize,
         /// Number of all rays.
         rays: usize,
+    },
+    /// No ray meets bodies of the model, which are narrower than a pixel: no mask shows them.
+    MissedBodies {
+        /// Number of such bodies.
+        bodies: usize,
+        /// The middle of the largest, in millimetres from the middle of the plate.
+        at_mm: [f64; 3],
     },
     /// Layers exceed the tolerance, which this planner does not guarantee.
     ToleranceExceeded {
@@ -158,6 +177,15 @@ pub enum Warning {
         layers: usize,
         /// Bottom of the lowest one, in millimetres above the plate.
         from_mm: f64,
+    },
+    /// Compensation erases parts of masks, which are no thicker than what it takes away: nothing near them stays lit.
+    ErasedParts {
+        /// Number of layers with such parts.
+        layers: usize,
+        /// Bottom of the lowest one, in millimetres above the plate.
+        from_mm: f64,
+        /// The largest area that it erases in one layer, in square millimetres.
+        area_mm2: f64,
     },
     /// The printer or its file takes one thickness for all layers, and the plan has several. Its print file will be refused.
     OneThickness {
@@ -244,12 +272,48 @@ impl Warning {
         }
     }
 
+    /// The sentences about what no mask shows.
+    fn of_vanishing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::MissedBodies {
+                bodies,
+                at_mm: [x, y, z],
+            } => write!(
+                f,
+                "{} of the model missing in all masks, the largest at {x}, {y}, {z}: narrower than a pixel, and met by no \
+                 ray; thicken it, or choose smaller pixels",
+                either(*bodies, "body", "bodies"),
+            ),
+            Self::BlackLayers { layers, from_mm } => write!(
+                f,
+                "{} of the plan {} black, from {from_mm:.3} mm up: parts hang in the air, or are thinner than a pixel; look at the \
+                 masks there",
+                counted(*layers, "layer"),
+                if *layers == 1 { "is" } else { "are" },
+            ),
+            Self::ErasedParts {
+                layers,
+                from_mm,
+                area_mm2,
+            } => write!(
+                f,
+                "compensation erases parts of {}, from {from_mm:.3} mm up, at most {area_mm2:.2} mm² of one: they are no thicker \
+                 than what it takes away; thicken them, or set a least width that it leaves alone",
+                counted(*layers, "layer"),
+            ),
+            _ => Ok(()),
+        }
+    }
+
     /// The sentences about voids and their holes.
     fn of_preparing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::NothingHollowed { wall_mm, cavity_mm } => write!(
                 f,
                 "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
+            ),
+            Self::NothingToDrain => f.write_str(
+                "the model has no closed cavity, so that no drain hole was made; hollow it",
             ),
             Self::DrainAstray { drain_number } => write!(
                 f,
@@ -259,6 +323,20 @@ impl Warning {
                 f,
                 "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
                 counted(*basins, "part")
+            ),
+            Self::ClosedCavities {
+                cavities,
+                volume_mm3,
+                at_mm: [x, y, z],
+            } => write!(
+                f,
+                "{} closed, with {volume_mm3:.1} mm³ of resin, the largest at {x}, {y}, {z}; make holes to them, \
+                 or fill them",
+                either(
+                    *cavities,
+                    "cavity of the model stays",
+                    "cavities of the model stay"
+                )
             ),
             Self::SupportAstray { point_number } => write!(
                 f,
@@ -294,14 +372,19 @@ impl std::fmt::Display for Warning {
                 given.plural()
             ),
             Self::NothingHollowed { .. }
+            | Self::NothingToDrain
             | Self::DrainAstray { .. }
             | Self::Undrained { .. }
+            | Self::ClosedCavities { .. }
             | Self::SupportAstray { .. }
             | Self::Unsupported { .. } => self.of_preparing(f),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which caps close; look at the masks"
             ),
+            Self::MissedBodies { .. } | Self::BlackLayers { .. } | Self::ErasedParts { .. } => {
+                self.of_vanishing(f)
+            }
             Self::ToleranceExceeded {
                 metric,
                 tolerance,
@@ -329,13 +412,6 @@ impl std::fmt::Display for Warning {
             Self::TopMoved { top_mm, height_mm } => write!(
                 f,
                 "the print ends at {top_mm} mm, since layers do not add up to {height_mm} mm"
-            ),
-            Self::BlackLayers { layers, from_mm } => write!(
-                f,
-                "{} of the plan {} black, from {from_mm:.3} mm up: parts hang in the air, or are thinner than a pixel; look at the \
-                 masks there",
-                counted(*layers, "layer"),
-                if *layers == 1 { "is" } else { "are" },
             ),
             Self::OneThickness { taker, best } => {
                 write!(
@@ -393,4 +469,9 @@ fn odd_size(
 /// A number with its noun: "1 hole", "2 holes".
 fn counted(number: usize, noun: &str) -> String {
     format!("{number} {noun}{}", if number == 1 { "" } else { "s" })
+}
+
+/// A number with its noun, of which both forms are given.
+fn either(number: usize, one: &str, several: &str) -> String {
+    format!("{number} {}", if number == 1 { one } else { several })
 }

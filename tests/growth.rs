@@ -152,6 +152,7 @@ fn every_pixel_agrees_with_a_naive_erosion() {
             let shrinking = Shrinking {
                 xy_mm: growth.of_layers_mm(plan.layers(), 2),
                 z_mm: growth.z_mm,
+                least_mm: 0.0,
             };
             let masks = Masks::shrunk(&ldi, &plan, &grid, samples, Side::Above, &shrinking);
             let runs = masks.reader().next(plan.layers());
@@ -188,6 +189,7 @@ fn without_growth_nothing_changes() {
         let shrinking = Shrinking {
             xy_mm: vec![0.0; plan.layers()],
             z_mm: 0.0,
+            least_mm: 0.0,
         };
         for side in [Side::Above, Side::Below] {
             let plain = Masks::new(&ldi, &plan, &grid, samples, side);
@@ -214,6 +216,7 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
     let shrinking = Shrinking {
         xy_mm: growth.of_layers_mm(plan.layers(), 2),
         z_mm: 0.0,
+        least_mm: 0.0,
     };
     let masks = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);
     let sides: Vec<u64> = (0..plan.layers())
@@ -241,6 +244,7 @@ fn raised_entries_are_those_of_counted_layers() {
         let shrinking = Shrinking {
             xy_mm: vec![0.0; plan.layers()],
             z_mm: plan.thickness_mm()[0] * layers as f64,
+            least_mm: 0.0,
         };
         let raised = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);
         let lit: Vec<Vec<u8>> = (0..plan.layers())

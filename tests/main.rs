@@ -33,6 +33,7 @@ mod read;
 mod saliency;
 mod simulate;
 mod thread;
+mod vanishing;
 mod verify;
 mod web;
 

@@ -155,6 +155,10 @@ pub struct Options {
     /// Anti-aliasing level, 1, 2, 4 or 8: the number of rays per pixel, and of heights per layer, over which grey is
     /// averaged. At 1, pixels are either lit or dark.
     pub antialias: u32,
+    /// The least width that compensation for the growth of prints in x and y leaves, measured along rows and columns of pixels: what is
+    /// narrower stays as it is. None if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub min_feature_mm: Option<f64>,
     /// Minimum layer thickness. If absent, 0.05 mm, or, for filament printers, what the nozzle prints.
     pub layer_min_mm: Option<f64>,
     /// Maximum layer thickness. If absent, 0.15 mm, or, for filament printers, what the nozzle prints.
@@ -228,6 +232,7 @@ impl Default for Options {
             format: None,
             rays: 2048,
             antialias: 1,
+            min_feature_mm: None,
             layer_min_mm: None,
             layer_max_mm: None,
             first_layer_mm: None,

@@ -73,6 +73,8 @@ pub(crate) struct Layering {
     pub resin: Resin,
     /// How far the print grows beyond its masks: what the resin and the printer add up to.
     pub growth: Growth,
+    /// The least width that making up for it leaves; 0 for none.
+    pub min_feature_mm: f64,
 }
 
 /// The tolerance that a plan keeps.

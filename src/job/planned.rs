@@ -8,10 +8,12 @@ use super::memory::Bound;
 use super::parts::Layering;
 use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
-use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks};
+use crate::ldi::LdiError;
+use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks, erased_mm2};
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
-use crate::progress::Progress;
+use crate::progress::{Cancelled, Progress};
+use crate::warning::Warning;
 
 /// A model of a plan, as it was measured.
 #[derive(Debug, Clone)]
@@ -74,13 +76,45 @@ impl Planned {
     ) -> Result<Self, Error> {
         let parts = models.iter().map(PlannedModel::part).collect();
         let planning = Planning::new(parts, layering);
-        let plan = planning.plan(progress)?;
-        Ok(Self {
+        let share = if layering.growth.is_none() { 1.0 } else { 0.5 };
+        let plan = planning.plan(&mut |fraction| progress(share * fraction))?;
+        let mut planned = Self {
             findings: planning.findings(&plan)?,
             models,
             layering: layering.clone(),
             plan,
-        })
+        };
+        let mut within = |fraction| progress(share + (1.0 - share) * fraction);
+        let erased = planned.erased(&mut within).map_err(LdiError::from)?;
+        planned.findings.warnings.extend(erased);
+        Ok(planned)
+    }
+
+    /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,
+    /// and nothing is known.
+    fn erased(&self, progress: &mut Progress<'_>) -> Result<Option<Warning>, Cancelled> {
+        let Some(shrinking) = self.shrinking() else {
+            return Ok(None);
+        };
+        let mut of_layers_mm2 = vec![0.0; self.plan.layers()];
+        let share = 1.0 / self.models.len() as f64;
+        for (place, model) in self.models.iter().enumerate() {
+            let Ok(ldi) = model.sampled().ldi() else {
+                continue;
+            };
+            let samples = model.sampled().sampling.samples;
+            let mut within = |fraction| progress(share * (place as f64 + fraction));
+            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, &shrinking, &mut within)?;
+            for (sum_mm2, area_mm2) in of_layers_mm2.iter_mut().zip(areas_mm2) {
+                *sum_mm2 += area_mm2 * model.copies as f64;
+            }
+        }
+        let lowest = of_layers_mm2.iter().position(|&area_mm2| area_mm2 > 0.0);
+        Ok(lowest.map(|lowest| Warning::ErasedParts {
+            layers: of_layers_mm2.iter().filter(|&&mm2| mm2 > 0.0).count(),
+            from_mm: self.plan.z_mm()[lowest],
+            area_mm2: of_layers_mm2.iter().copied().fold(0.0, f64::max),
+        }))
     }
 
     /// Whether this is the plan of these models with this layering.
@@ -154,6 +188,7 @@ impl Planned {
         (!growth.is_none()).then(|| Shrinking {
             xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
             z_mm: growth.z_mm,
+            least_mm: self.layering.min_feature_mm,
         })
     }
 }

@@ -272,9 +272,13 @@ fn hollow(
     progress: &mut Progress<'_>,
 ) -> Result<Option<Hollowed>, LdiError> {
     let Some(void) = prepare::hollow(mesh, hollowing, spared, progress)? else {
-        warnings.push(Warning::NothingHollowed {
-            wall_mm: hollowing.wall_mm,
-            cavity_mm: hollowing.cavity_mm,
+        warnings.push(if hollowing.drains_alone() {
+            Warning::NothingToDrain
+        } else {
+            Warning::NothingHollowed {
+                wall_mm: hollowing.wall_mm,
+                cavity_mm: hollowing.cavity_mm,
+            }
         });
         return Ok(None);
     };
@@ -303,7 +307,7 @@ impl Supported {
     }
 }
 
-/// The warnings about holes that drain nothing, and about what stays full.
+/// The warnings about holes that drain nothing, and about what stays full or closed.
 fn drain_warnings(void: &Void) -> Vec<Warning> {
     let astray = void.astray.iter();
     let mut warnings: Vec<Warning> = astray
@@ -316,7 +320,17 @@ fn drain_warnings(void: &Void) -> Vec<Warning> {
             basins: void.undrained,
         });
     }
+    warnings.extend(void.closed.map(|closed| Warning::ClosedCavities {
+        cavities: closed.cavities,
+        volume_mm3: rounded(closed.volume_mm3),
+        at_mm: closed.at_mm.map(rounded),
+    }));
     warnings
+}
+
+/// As people write it; without -0.
+fn rounded(number: f64) -> f64 {
+    (number * 1e3).round() / 1e3 + 0.0
 }
 
 /// The warnings about points that no support reaches, and about those that are not on the surface.

@@ -15,6 +15,9 @@ use crate::prepare::{BadLength, Hollowing, Supporting};
 use crate::printer::{self, PRINTERS, Printer, PrinterChoice};
 use crate::profile::Metric;
 
+/// The widest feature that compensation leaves alone.
+const MOST_FEATURE_MM: f64 = 10.0;
+
 impl Options {
     /// Settles and checks everything that does not depend on the model.
     ///
@@ -176,6 +179,7 @@ impl Options {
             growth: printer.map_or(self.resin.growth, |printer| {
                 self.resin.growth.and(printer.growth)
             }),
+            min_feature_mm: self.min_feature_mm()?,
         };
         let bins = Bins {
             count: 1,
@@ -190,6 +194,19 @@ impl Options {
                 .check(bins)?,
         }
         Ok(layering)
+    }
+
+    fn min_feature_mm(&self) -> Result<f64, OptionsError> {
+        let value_mm = self.min_feature_mm.unwrap_or(0.0);
+        if (0.0..=MOST_FEATURE_MM).contains(&value_mm) {
+            return Ok(value_mm);
+        }
+        Err(OptionsError::BadLength {
+            option: "min_feature_mm",
+            value_mm,
+            least_mm: 0.0,
+            most_mm: MOST_FEATURE_MM,
+        })
     }
 
     /// The thickness rule of the optimal planner.

@@ -14,7 +14,7 @@ use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
 use crate::inspect::{Held, Limits};
 use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{GpuFault, Ldi, LdiError, RayImage, Survey, cpu};
+use crate::ldi::{GpuFault, Ldi, LdiError, RayImage, Survey, cpu, missed};
 use crate::model::Mesh;
 use crate::progress::{Progress, silent};
 use crate::warning::Warning;
@@ -185,6 +185,13 @@ impl Sampler {
         if unclosed > 0 {
             let rays = rays.pixels();
             warnings.push(Warning::UnclosedRays { unclosed, rays });
+        }
+        if let Some(missed) = missed(mesh, &rays) {
+            let rounded = |mm: f64| (mm * 1e3).round() / 1e3 + 0.0;
+            warnings.push(Warning::MissedBodies {
+                bodies: missed.bodies,
+                at_mm: missed.at_mm.to_array().map(rounded),
+            });
         }
         timings.ldi += ms_since(clock);
         let supports = prepared.supports.as_ref();

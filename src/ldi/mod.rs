@@ -8,6 +8,7 @@ mod assemble;
 pub mod cpu;
 pub mod gpu;
 pub mod layout;
+mod missed;
 pub mod projection;
 mod ranges;
 mod rays;
@@ -17,6 +18,7 @@ pub mod visibility;
 
 use serde::Serialize;
 
+pub use missed::{Missed, missed};
 pub use ranges::{model_ranges, printed_crossings, printed_ranges};
 pub use rays::{Anew, RayImage, Rays};
 pub use solid::Solid;

@@ -5,16 +5,19 @@
 //! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
 mod columns;
+mod erased;
 mod plate;
 mod runs;
 mod samples;
 mod shrink;
 mod slabs;
+mod step;
 mod window;
 
 use std::ops::Range;
 
 pub(crate) use columns::Until;
+pub(crate) use erased::erased_mm2;
 pub use plate::{PlateMasks, PlateRuns, Stamp};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};

@@ -7,6 +7,7 @@
 use std::ops::Range;
 
 use super::samples::SublayerOf;
+use super::step::{Step, Stretch};
 use super::{Change, each_change};
 use crate::grid::Grid;
 use crate::ldi::{Ldi, printed_ranges};
@@ -18,37 +19,8 @@ pub struct Shrinking {
     pub xy_mm: Vec<f64>,
     /// By how much surfaces that face down move up, in millimetres.
     pub z_mm: f64,
-}
-
-/// A lit stretch of a row of rays.
-type Stretch = Range<i32>;
-
-/// A radius this close to a whole number of pixels, as a fraction of it, counts as whole.
-const ROUNDING: f64 = 1e-9;
-
-/// The rays of a disc: for each row from its middle, the number of columns on each side.
-#[derive(Debug, Clone, PartialEq, Eq)]
-struct Disc {
-    half_widths: Vec<i32>,
-}
-
-impl Disc {
-    fn new(radius_mm: f64, grid: &Grid) -> Self {
-        let radius_mm = radius_mm.abs() * (1.0 + ROUNDING);
-        let rows = (radius_mm / grid.pitch_y_mm) as i32;
-        let half_widths = (0..=rows).map(|row| {
-            let y_mm = f64::from(row) * grid.pitch_y_mm;
-            let x_mm = (radius_mm * radius_mm - y_mm * y_mm).max(0.0).sqrt();
-            (x_mm / grid.pitch_mm) as i32
-        });
-        Self {
-            half_widths: half_widths.collect(),
-        }
-    }
-
-    fn rows(&self) -> i32 {
-        self.half_widths.len() as i32 - 1
-    }
+    /// The least width that shrinking leaves, measured along rows and columns, in millimetres: what is narrower stays as it is; 0 for none.
+    pub least_mm: f64,
 }
 
 /// Columns and rows by which rays around the model must be extended so that no grown area is cut off.
@@ -74,9 +46,26 @@ pub(super) struct Shrink<'a> {
 }
 
 impl Shrink<'_> {
+    /// How each layer shrinks.
+    pub fn steps(&self) -> Vec<Step> {
+        let Shrinking {
+            xy_mm, least_mm, ..
+        } = self.shrinking;
+        let steps = xy_mm.iter();
+        let steps = steps.map(|&mm| Step::new(mm, *least_mm, &self.rays));
+        steps.collect()
+    }
+
+    /// The rows of the extended rays that decide about some rows.
+    pub fn around(&self, rows: &Range<usize>, steps: &[Step]) -> Range<i32> {
+        let halo = steps.iter().map(Step::reach).max().unwrap_or(0);
+        let first = (rows.start as i32 - halo).max(0);
+        first..(rows.end as i32 + halo).min(self.rays.height as i32)
+    }
+
     /// The first sublayer of an entry, moved up unless it is in the first layer, as nothing cures below the plate, or the ray
     /// is lit up to it: `last_off` is the sublayer of the exit before.
-    fn entry(&self, z_in: f32, last_off: u32) -> u32 {
+    pub fn entry(&self, z_in: f32, last_off: u32) -> u32 {
         let on = self.sublayer_of.first_above(z_in);
         if on < self.parts || on == last_off {
             return on;
@@ -92,34 +81,22 @@ impl Shrink<'_> {
         pixel_of: impl Fn(usize, usize) -> u32,
         mut emit: impl FnMut(Change),
     ) {
-        let discs: Vec<(Disc, bool)> = self
-            .shrinking
-            .xy_mm
-            .iter()
-            .map(|&mm| (Disc::new(mm, &self.rays), mm < 0.0))
-            .collect();
-        let halo = discs.iter().map(|(disc, _)| disc.rows()).max().unwrap_or(0);
-        let first = (rows.start as i32 - halo).max(0);
-        let end = (rows.end as i32 + halo).min(self.rays.height as i32);
-        let mut source = Rows::new(self, first..end);
+        let steps = self.steps();
+        let mut source = Rows::new(self, self.around(&rows, &steps), Part::Raised);
         let mut last: Vec<Vec<Stretch>> = vec![Vec::new(); rows.len()];
-        let mut last_disc = None;
+        let mut last_step = None;
         let width = self.rays.width as i32;
         for sublayer in 0..source.sublayers() {
             let changed = source.advance(sublayer);
-            let (disc, grows) = &discs[sublayer as usize / self.parts as usize];
-            let is_new_disc = last_disc != Some((disc, grows));
-            last_disc = Some((disc, grows));
+            let step = &steps[sublayer as usize / self.parts as usize];
+            let is_new_step = last_step != Some(step);
+            last_step = Some(step);
             for row in rows.clone() {
-                let near = row as i32 - disc.rows()..row as i32 + disc.rows() + 1;
-                if !is_new_disc && !changed.iter().any(|row| near.contains(row)) {
+                let near = row as i32 - step.reach()..row as i32 + step.reach() + 1;
+                if !is_new_step && !changed.iter().any(|row| near.contains(row)) {
                     continue;
                 }
-                let now = if *grows {
-                    grown(&source, disc, row as i32, width)
-                } else {
-                    shrunk(&source, disc, row as i32)
-                };
+                let now = step.row(&source, row as i32, width);
                 let before = &mut last[row - rows.start];
                 for_each_difference(before, &now, |columns, is_on| {
                     for column in columns {
@@ -134,8 +111,17 @@ impl Shrink<'_> {
     }
 }
 
+/// What rows are read from the rays.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+pub(super) enum Part {
+    /// All that stays lit where surfaces that face down are moved up.
+    Raised,
+    /// The same with stretches of rays of which nothing would be left, as they are.
+    Whole,
+}
+
 /// The lit stretches of rows of rays, sublayer by sublayer.
-struct Rows {
+pub(super) struct Rows {
     first: i32,
     /// For each row, the columns at which the light changes: an even number.
     edges: Vec<Vec<i32>>,
@@ -147,7 +133,7 @@ struct Rows {
 }
 
 impl Rows {
-    fn new(shrink: &Shrink<'_>, rows: Range<i32>) -> Self {
+    pub fn new(shrink: &Shrink<'_>, rows: Range<i32>, part: Part) -> Self {
         let Shrink {
             ldi, sublayer_of, ..
         } = shrink;
@@ -167,9 +153,12 @@ impl Rows {
                 let hits = ldi.ray(ray_row * width + column);
                 let mut last_off = 0;
                 printed_ranges(hits, ldi.classes, |z_in, z_out| {
-                    let on = shrink.entry(z_in, last_off);
+                    let mut on = shrink.entry(z_in, last_off);
                     let off = sublayer_of.first_above(z_out);
                     last_off = off;
+                    if part == Part::Whole && off <= on {
+                        on = sublayer_of.first_above(z_in);
+                    }
                     if on < off {
                         flips.push((on, row, column as i32 + left));
                         flips.push((off, row, column as i32 + left));
@@ -189,12 +178,12 @@ impl Rows {
         }
     }
 
-    fn sublayers(&self) -> u32 {
+    pub fn sublayers(&self) -> u32 {
         self.sublayers
     }
 
     /// Moves on to the next sublayer, and returns the rows that changed.
-    fn advance(&mut self, sublayer: u32) -> Vec<i32> {
+    pub fn advance(&mut self, sublayer: u32) -> Vec<i32> {
         let mut changed = Vec::new();
         let rest = &self.flips[self.next..];
         let here = &rest[..rest.partition_point(|flip| flip.0 <= sublayer)];
@@ -215,7 +204,7 @@ impl Rows {
         changed
     }
 
-    fn row(&self, row: i32) -> &[Stretch] {
+    pub fn row(&self, row: i32) -> &[Stretch] {
         let place: Result<usize, _> = (row - self.first).try_into();
         place
             .ok()
@@ -259,73 +248,6 @@ fn toggled(edges: &[i32], sides: impl Iterator<Item = i32>) -> Vec<i32> {
         toggle(side);
     }
     rest.for_each(toggle);
-    result
-}
-
-/// The rows of a disc around `row`, and the half width of each.
-fn disc_rows(disc: &Disc, row: i32) -> impl Iterator<Item = (i32, i32)> {
-    (-disc.rows()..=disc.rows())
-        .map(move |step| (row + step, disc.half_widths[step.unsigned_abs() as usize]))
-}
-
-fn shrunk(source: &Rows, disc: &Disc, row: i32) -> Vec<Stretch> {
-    let mut result: Option<Vec<Stretch>> = None;
-    for (row, half_width) in disc_rows(disc, row) {
-        let shorter = source.row(row).iter().filter_map(|stretch| {
-            let shorter = stretch.start + half_width..stretch.end - half_width;
-            (!shorter.is_empty()).then_some(shorter)
-        });
-        let both = match &result {
-            None => shorter.collect(),
-            Some(before) => intersection(before, shorter),
-        };
-        if both.is_empty() {
-            return both;
-        }
-        result = Some(both);
-    }
-    result.unwrap_or_default()
-}
-
-fn intersection(a: &[Stretch], b: impl Iterator<Item = Stretch>) -> Vec<Stretch> {
-    let mut result = Vec::new();
-    let mut first = 0;
-    for stretch in b {
-        while a.get(first).is_some_and(|it| it.end <= stretch.start) {
-            first += 1;
-        }
-        for other in a[first..].iter().take_while(|it| it.start < stretch.end) {
-            result.push(other.start.max(stretch.start)..other.end.min(stretch.end));
-        }
-    }
-    result
-}
-
-fn grown(source: &Rows, disc: &Disc, row: i32, width: i32) -> Vec<Stretch> {
-    let mut result = Vec::new();
-    for (row, half_width) in disc_rows(disc, row) {
-        let longer = source.row(row).iter().map(|stretch| {
-            (stretch.start - half_width).max(0)..(stretch.end + half_width).min(width)
-        });
-        result = union(&result, longer);
-    }
-    result
-}
-
-fn union(a: &[Stretch], b: impl Iterator<Item = Stretch>) -> Vec<Stretch> {
-    let mut result: Vec<Stretch> = Vec::with_capacity(a.len() + 1);
-    let mut add = |stretch: Stretch| match result.last_mut() {
-        Some(last) if stretch.start <= last.end => last.end = last.end.max(stretch.end),
-        _ => result.push(stretch),
-    };
-    let mut rest = a.iter().cloned().peekable();
-    for stretch in b {
-        while let Some(other) = rest.next_if(|other| other.start <= stretch.start) {
-            add(other);
-        }
-        add(stretch);
-    }
-    rest.for_each(add);
     result
 }
 

@@ -34,11 +34,11 @@ pub(crate) fn bodies(vertices: usize, facets: &[[u32; 3]]) -> Vec<u32> {
         .collect()
 }
 
-/// Which facets belong to bodies that face the wrong way: bodies inside out that do not lie within another, and cavities of such
-/// bodies. `None` if there are none.
+/// The number of bodies, and which facets belong to those that face the wrong way: bodies inside out that do not lie within another,
+/// and cavities of such bodies. `None` if there are none.
 ///
 /// Cost: linear in facets; with bodies inside out, for each facet the bodies beside it as well.
-pub(super) fn misoriented(mesh: &Mesh) -> Option<Vec<bool>> {
+pub(super) fn misoriented(mesh: &Mesh) -> (usize, Option<Vec<bool>>) {
     let body_of = bodies(mesh.vertices.len(), &mesh.facets);
     let mut found: Vec<Body> = Vec::new();
     let mut number_of = vec![u32::MAX; mesh.vertices.len()];
@@ -57,7 +57,7 @@ pub(super) fn misoriented(mesh: &Mesh) -> Option<Vec<bool>> {
         found[number as usize].add(mesh.corners(facet));
     }
     if found.iter().all(|body| body.sixfold_mm3 >= 0.0) {
-        return None;
+        return (found.len(), None);
     }
     let windings = windings(mesh, &numbers, &found);
     let is_wrong: Vec<bool> = found
@@ -72,7 +72,8 @@ pub(super) fn misoriented(mesh: &Mesh) -> Option<Vec<bool>> {
         })
         .collect();
     let wrong = numbers.iter().map(|&number| is_wrong[number as usize]);
-    is_wrong.contains(&true).then(|| wrong.collect())
+    let wrong = is_wrong.contains(&true).then(|| wrong.collect());
+    (found.len(), wrong)
 }
 
 struct Body {
@@ -120,22 +121,37 @@ impl Body {
 /// How often the other bodies wind around the points of each body.
 fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
     let points: Vec<DVec3> = bodies.iter().flat_map(Body::points).collect();
+    let around = windings_at(mesh, &points, |facet, point| {
+        point / 6 == numbers[facet] as usize
+    });
+    around.as_chunks().0.to_vec()
+}
+
+/// How often a mesh winds around points, given the facets that a point leaves out.
+pub(crate) fn windings_at(
+    mesh: &Mesh,
+    points: &[DVec3],
+    leaves_out: impl Fn(usize, usize) -> bool,
+) -> Vec<i32> {
     let order = ascending(points.iter().map(|point| point.x));
-    let points: Vec<(DVec3, usize)> = order
+    let sorted: Vec<(DVec3, usize)> = order
         .into_iter()
         .map(|place| (points[place], place))
         .collect();
-    let mut windings = vec![[0; 6]; bodies.len()];
-    for (facet, &number) in numbers.iter().enumerate() {
+    let mut windings = vec![0; points.len()];
+    if points.is_empty() {
+        return windings;
+    }
+    for facet in 0..mesh.classes.model_end() as usize {
         let [a, b, c] = mesh.corners(facet);
         let (least, most) = (a.x.min(b.x).min(c.x), a.x.max(b.x).max(c.x));
-        let first = points.partition_point(|(point, _)| point.x < least);
-        for &(point, place) in points[first..]
+        let first = sorted.partition_point(|(point, _)| point.x < least);
+        for &(point, place) in sorted[first..]
             .iter()
             .take_while(|(point, _)| point.x <= most)
         {
-            if place / 6 != number as usize {
-                windings[place / 6][place % 6] += passes_above([a, b, c], point);
+            if !leaves_out(facet, place) {
+                windings[place] += passes_above([a, b, c], point);
             }
         }
     }

@@ -93,6 +93,8 @@ pub struct Mesh {
     pub was_inside_out: bool,
     /// Facets of the surface that were turned over, unless all were.
     pub turned_facets: usize,
+    /// Number of bodies: facets that hang together by their corners.
+    pub bodies: usize,
     /// Edges at which the facets beside them cannot all face the same way, as on a Möbius strip, or where three meet.
     pub contradictory_edges: usize,
     /// The first of the vertices that are centroids of fans, if there are any.
@@ -160,6 +162,7 @@ impl Mesh {
             holes: loops.len(),
             was_inside_out: false,
             turned_facets: 0,
+            bodies: 0,
             contradictory_edges,
             centroids_from,
         };
@@ -175,7 +178,9 @@ impl Mesh {
             let all = vec![true; mesh.facets.len()];
             turn_over(&mut mesh, &all);
         }
-        if let Some(wrong) = misoriented(&mesh) {
+        let (bodies, wrong) = misoriented(&mesh);
+        mesh.bodies = bodies;
+        if let Some(wrong) = wrong {
             turn_over(&mut mesh, &wrong);
         }
         let surface = turned.iter().take(surface_facets);

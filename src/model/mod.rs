@@ -16,7 +16,7 @@ pub mod saliency;
 mod unit;
 pub mod weights;
 
-pub(crate) use bodies::{bodies, passes_above};
+pub(crate) use bodies::{bodies, passes_above, windings_at};
 pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
 pub(crate) use facet_lists::FacetLists;

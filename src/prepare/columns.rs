@@ -67,6 +67,37 @@ impl Columns {
         columns
     }
 
+    /// The ranges of a column.
+    pub fn ranges(&self, column: usize) -> &[[f32; 2]] {
+        &self.ranges_mm[self.first(column)..self.first(column + 1)]
+    }
+
+    /// The place of a column's first range among all.
+    pub fn first(&self, column: usize) -> usize {
+        self.starts[column] as usize
+    }
+
+    /// Number of ranges of all columns.
+    pub fn count(&self) -> usize {
+        self.ranges_mm.len()
+    }
+
+    /// Columns of the same lattice with the ranges that `add` gives each: ascending and apart.
+    pub fn with_ranges(&self, add: impl Fn(usize, &mut Vec<[f32; 2]>)) -> Self {
+        let mut columns = Self {
+            starts: vec![0],
+            ranges_mm: Vec::new(),
+            ..*self
+        };
+        let mut of_column = Vec::new();
+        for column in 0..self.width * self.height {
+            add(column, &mut of_column);
+            columns.ranges_mm.append(&mut of_column);
+            columns.starts.push(columns.ranges_mm.len() as u32);
+        }
+        columns
+    }
+
     /// Columns of the same lattice with other ranges: the heights at which each column enters or leaves a solid, in ascending order for each
     /// column, whatever the order of columns.
     pub fn of_changes(&self, changes: &[(u32, f32)]) -> Self {

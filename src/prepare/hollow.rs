@@ -4,13 +4,18 @@
 //! cavity away from the outside is the core of the void; the void is all that is within half a cavity of that core. So every point of it is in a
 //! ball of the cavity's diameter that is void as well, walls are thick enough wherever the void ends, and narrow places, which would hold
 //! resin, stay solid. Struts of a lattice are left standing in it.
+//!
+//! A cavity of the model that lies so deep is joined to the void: the walls that the void keeps from the outside it does not keep from
+//! such a cavity, around which it would leave a loose shell (`cavities.rs`).
 
 use glam::Vec3;
 use serde::{Deserialize, Serialize};
 
 use super::basins::Basins;
+use super::cavities::Cavities;
 use super::columns::{Columns, MARGIN, To};
 use super::drain::{self, AutoDrain, Drain};
+use super::joined::{Closed, Joined, closed_of, joined};
 use super::lattice::Lattice as Struts;
 use super::lengths::{self, BadLength};
 use super::nets::{Lattice, Nets};
@@ -29,7 +34,8 @@ use crate::progress::{Progress, report};
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Hollowing {
-    /// Thickness of the walls: at least this everywhere, less the resolution that the report states.
+    /// Thickness of the walls: at least this everywhere, less the resolution that the report states. If 0, nothing is hollowed, and holes
+    /// drain the closed cavities that the model has.
     pub wall_mm: f64,
     /// Diameter of the smallest cavity: a ball of this size fits into the void everywhere.
     pub cavity_mm: f64,
@@ -104,8 +110,13 @@ impl Hollowing {
                 ),
             ]
         });
+        let least_wall_mm = if self.drains_alone() {
+            0.0
+        } else {
+            LEAST_WALL_MM
+        };
         let lengths = [
-            ("hollow.wall_mm", self.wall_mm, LEAST_WALL_MM),
+            ("hollow.wall_mm", self.wall_mm, least_wall_mm),
             ("hollow.cavity_mm", self.cavity_mm, 0.0),
         ];
         let of_drains = self.drains.iter();
@@ -117,6 +128,11 @@ impl Hollowing {
         let lengths = lengths.into_iter().chain(of_infill.into_iter().flatten());
         let lengths = lengths.chain(of_drains);
         lengths::check(lengths, MOST_LENGTH_MM)
+    }
+
+    /// Whether holes drain the cavities that the model has, and nothing is hollowed.
+    pub(crate) fn drains_alone(&self) -> bool {
+        self.wall_mm == 0.0
     }
 }
 
@@ -133,6 +149,8 @@ pub struct Void {
     pub undrained: usize,
     /// Walls may be thinner than asked by this, and are a third of it thicker on average.
     pub resolution_mm: f64,
+    /// The cavities of the model that are not joined to it, if there are any.
+    pub closed: Option<Closed>,
 }
 
 /// Columns in the thickness of a wall: what they do not resolve is at most an eighth of it.
@@ -168,7 +186,8 @@ const STRIDE: usize = 2;
 /// The depth of what basins may miss, from one node of the void's surface to the next.
 const PIT: f32 = 2.0;
 
-/// The void in a model that stands on the plate: none if it is nowhere thick enough.
+/// The void in a model that stands on the plate: none if it is nowhere thick enough, or if the model has no closed cavity of its own where
+/// only these are drained.
 ///
 /// `weights` are those of the facets of the surface, if they say where no drain hole should be.
 ///
@@ -186,35 +205,39 @@ pub fn hollow(
     let size = bounds.size();
     // The largest ball of void with its wall must fit.
     let least_mm = 2.0 * hollowing.wall_mm + hollowing.cavity_mm;
-    if least_mm > size.min_element() || size.max_element() > MOST_MM {
+    let is_too_thin = !hollowing.drains_alone() && least_mm > size.min_element();
+    if is_too_thin || size.max_element() > MOST_MM {
         return Ok(None);
     }
     let pitch_mm = pitch_mm(hollowing, size.x * size.y * size.z);
-    let Some(grid) = Grid::of_pitch(&bounds, pitch_mm)
-        .ok()
-        .filter(|grid| grid.pixels() <= MOST_COLUMNS)
-    else {
-        let columns = size.x * size.y / (pitch_mm * pitch_mm);
-        return Err(LdiError::OutOfMemory {
-            hits: columns as u64,
-            needed_bytes: (columns * COLUMN_BYTES) as u64,
-        });
-    };
+    let grid = grid_of(&bounds, pitch_mm)?;
     let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.1 * fraction))?;
     let model = Columns::of_model(&ldi);
     drop(ldi);
     let half_mm = (hollowing.cavity_mm / 2.0) as f32;
     // What is outside is found half a column too far away on average.
     let error_mm = pitch_mm as f32 / 2.0;
-    let core = core(
-        &model,
-        hollowing.wall_mm as f32 + half_mm + error_mm,
-        &mut |fraction| progress(0.1 + 0.5 * fraction),
-    )?;
-    let struts = hollowing.infill.map(|infill| Struts::new(&infill));
+    let depth_mm = hollowing.wall_mm as f32 + half_mm + error_mm;
+    let depth_mm = (!hollowing.drains_alone()).then_some(depth_mm);
+    let cavities = Cavities::of(&model);
+    // Struts hold the shell of a cavity, and would end in the air in one that has none.
+    let has_struts = hollowing.infill.is_some() && !hollowing.drains_alone();
+    let may_join = vec![!has_struts; cavities.all.len()];
+    let Joined {
+        model,
+        cavities: joined,
+        closed,
+        core,
+    } = joined(model, &cavities, may_join, depth_mm, &mut |fraction| {
+        progress(0.1 + 0.5 * fraction)
+    })?;
+    let struts = hollowing.infill.filter(|_| has_struts);
+    let struts = struts.map(|infill| Struts::new(&infill));
     // So is the core.
     let reach_mm = half_mm + error_mm;
-    let Some([low_mm, high_mm]) = core.extent_mm() else {
+    let joined_mm = joined.as_ref().and_then(Columns::extent_mm);
+    let extents = core.extent_mm().into_iter().chain(joined_mm);
+    let Some([low_mm, high_mm]) = extents.reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])]) else {
         report(progress, 1.0)?;
         return Ok(None);
     };
@@ -237,13 +260,14 @@ pub fn hollow(
             .map(|it| lattice.node_mm(0, 0, it).z)
             .collect();
         let distances = core.distances_mm(To::Solid, &heights_mm, most_mm, STRIDE);
+        let within = joined.as_ref().map_or_else(Vec::new, |joined| {
+            joined.distances_mm(To::Outside, &heights_mm, most_mm, STRIDE)
+        });
+        let mut within = within.into_iter();
         for (mut field, slice) in distances.into_iter().zip(these) {
-            for (place, field) in field.iter_mut().enumerate() {
-                *field = reach_mm - *field;
-                if let Some(struts) = struts.as_ref().filter(|_| *field > 0.0) {
-                    let (column, row) = (place % lattice.width, place / lattice.width);
-                    *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
-                }
+            depths(&mut field, reach_mm, within.next(), model.pitch_mm);
+            if let Some(struts) = &struts {
+                leave_standing(struts, &lattice, slice, &mut field);
             }
             if hollowing.auto_drain.is_some() {
                 basins.add(&field);
@@ -262,35 +286,62 @@ pub fn hollow(
         astray: Vec::new(),
         undrained: 0,
         resolution_mm: pitch_mm,
+        closed: closed_of(&cavities, &closed, &lattice, model.pitch_mm),
     };
-    for (place, drain) in hollowing.drains.iter().enumerate() {
-        report(progress, 1.0)?;
-        if !void.drill(drain, &bounds) {
-            void.astray.push(place);
-        }
-    }
+    void.drill_all(&hollowing.drains, &bounds, progress)?;
     if let Some(hole) = hollowing.auto_drain {
         // A hole as wide as the model leaves nothing of it.
         let is_small = hole.diameter_mm < size.min_element();
         // What the hole cuts away, and no less than the columns resolve.
         let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
         let is_spared = surface::spared_within(mesh, weights.filter(|_| hole.spare), reach_mm);
-        for (slice, node) in basins.finish() {
-            report(progress, 1.0)?;
-            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
+        let place = |lowest_mm| {
             let drain =
                 is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole, &is_spared));
-            let drain = drain.flatten();
-            if !drain.is_some_and(|drain| void.drill(&drain, &bounds)) {
-                void.undrained += 1;
-            }
-        }
+            drain.flatten()
+        };
+        void.drain(basins, &lattice, place, &bounds, progress)?;
     }
     void.fill_pits(lattice.spacing_mm);
     Ok(Some(void))
 }
 
 impl Void {
+    /// Adds the drain holes that are asked for, and notes those that meet no void.
+    fn drill_all(
+        &mut self,
+        drains: &[Drain],
+        bounds: &Bounds,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), LdiError> {
+        for (place, drain) in drains.iter().enumerate() {
+            report(progress, 1.0)?;
+            if !self.drill(drain, bounds) {
+                self.astray.push(place);
+            }
+        }
+        Ok(())
+    }
+
+    /// Adds the hole that `place` gives for the lowest point of each basin, and counts those that stay full.
+    fn drain(
+        &mut self,
+        basins: Basins,
+        lattice: &Lattice,
+        place: impl Fn(Vec3) -> Option<Drain>,
+        bounds: &Bounds,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), LdiError> {
+        for (slice, node) in basins.finish() {
+            report(progress, 1.0)?;
+            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
+            if !place(lowest_mm).is_some_and(|drain| self.drill(&drain, bounds)) {
+                self.undrained += 1;
+            }
+        }
+        Ok(())
+    }
+
     /// Adds a drain hole; `false` if it does not meet the void.
     fn drill(&mut self, drain: &Drain, bounds: &Bounds) -> bool {
         let Some((shell, depth_mm)) = drain::bore(&self.shell, drain, bounds) else {
@@ -318,6 +369,40 @@ impl Void {
     }
 }
 
+/// The columns of a model's box.
+fn grid_of(bounds: &Bounds, pitch_mm: f64) -> Result<Grid, LdiError> {
+    let grid = Grid::of_pitch(bounds, pitch_mm).ok();
+    grid.filter(|grid| grid.pixels() <= MOST_COLUMNS)
+        .ok_or_else(|| {
+            let size = bounds.size();
+            let columns = size.x * size.y / (pitch_mm * pitch_mm);
+            LdiError::OutOfMemory {
+                hits: columns as u64,
+                needed_bytes: (columns * COLUMN_BYTES) as u64,
+            }
+        })
+}
+
+/// Makes depths in the void of distances to its core, and of depths in cavities that are joined to it, if there are any.
+fn depths(distances: &mut [f32], reach_mm: f32, cavities: Option<Vec<f32>>, pitch_mm: f32) {
+    for distance in distances.iter_mut() {
+        *distance = reach_mm - *distance;
+    }
+    for (depth, within_mm) in distances.iter_mut().zip(cavities.into_iter().flatten()) {
+        // Within its walls by as much as columns do not resolve.
+        *depth = depth.max(within_mm - pitch_mm);
+    }
+}
+
+/// Takes struts out of the void in a slice.
+fn leave_standing(struts: &Struts, lattice: &Lattice, slice: usize, field: &mut [f32]) {
+    let inside = field.iter_mut().enumerate().filter(|it| *it.1 > 0.0);
+    for (place, field) in inside {
+        let (column, row) = (place % lattice.width, place / lattice.width);
+        *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
+    }
+}
+
 /// Slices that are made before progress is reported: some for each thread, and fewer of large ones.
 fn slices_at_a_time(model: &Columns) -> usize {
     let threads = parallel::threads();
@@ -330,11 +415,16 @@ fn slices_at_a_time(model: &Columns) -> usize {
 
 /// The pitch of columns: fine beside the wall, and not so fine that there are too many points.
 fn pitch_mm(hollowing: &Hollowing, box_mm3: f64) -> f64 {
-    let most_mm = hollowing.wall_mm / LEAST_COLUMNS_OF_WALL;
+    let wall_mm = if hollowing.drains_alone() {
+        Hollowing::default().wall_mm
+    } else {
+        hollowing.wall_mm
+    };
+    let most_mm = wall_mm / LEAST_COLUMNS_OF_WALL;
     let of_struts_mm = hollowing
         .infill
         .map(|infill| infill.strut_mm / COLUMNS_OF_STRUT);
-    let mut pitch_mm = (hollowing.wall_mm / COLUMNS_OF_WALL)
+    let mut pitch_mm = (wall_mm / COLUMNS_OF_WALL)
         .min(of_struts_mm.unwrap_or(f64::INFINITY))
         .max(LEAST_PITCH_MM)
         .min(most_mm);
@@ -367,7 +457,11 @@ fn lattice_of(model: &Columns, grid: &Grid, bottom_mm: f32) -> Lattice {
 }
 
 /// What is at least so far from the outside.
-fn core(model: &Columns, depth_mm: f32, progress: &mut Progress<'_>) -> Result<Columns, LdiError> {
+pub(super) fn core(
+    model: &Columns,
+    depth_mm: f32,
+    progress: &mut Progress<'_>,
+) -> Result<Columns, LdiError> {
     let mut changes = Vec::new();
     let Some([low_mm, high_mm]) = model.extent_mm() else {
         return Ok(model.of_changes(&changes));

@@ -3,9 +3,11 @@
 //! They are never cut from the model or joined with it: [`crate::model::Winding`] decides along each ray what is printed.
 
 mod basins;
+mod cavities;
 mod columns;
 mod drain;
 mod hollow;
+mod joined;
 mod lattice;
 mod lengths;
 mod nets;
@@ -18,6 +20,7 @@ mod surface;
 
 pub use drain::{AutoDrain, Drain};
 pub use hollow::{Hollowing, Infill, Void, hollow};
+pub use joined::Closed;
 pub(crate) use lengths::BadLength;
 pub use plug::plugs;
 pub use shell::Shell;

@@ -10,7 +10,7 @@ use cusp_slicer::job::{
 };
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::plan::HeightRange;
-use cusp_slicer::prepare::{AutoDrain, SupportProfile, SupportStrength, Supporting};
+use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportProfile, SupportStrength, Supporting};
 use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::resin::Resin;
@@ -98,9 +98,12 @@ pub struct Target {
     format: Option<Format>,
     #[arg(long, value_name = "MM", value_parser = length, help = nozzle_help(), help_heading = "Printer")]
     nozzle: Option<f64>,
-    /// Resin, as a JSON file: exposures, bottom layers, lift
+    /// Resin, as a JSON file: exposures, bottom layers, lift, growth
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
+    /// Least width of a feature that making up for growth in x and y leaves: what is narrower stays as it is
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Printer")]
+    min_feature: Option<f64>,
 }
 
 impl Target {
@@ -129,6 +132,7 @@ impl Target {
         put(&mut options.mirror, self.mirror);
         put(&mut options.format, self.format);
         put(&mut options.nozzle_mm, self.nozzle);
+        put(&mut options.min_feature_mm, self.min_feature);
         Ok(())
     }
 }
@@ -190,8 +194,8 @@ pub struct Choices {
     /// Diameter of the infill's struts [default: 1]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     strut: Option<f64>,
-    /// Make a drain hole in the void: a point of the surface, a direction inward and a diameter; or `auto`, one wherever
-    /// resin would stay; repeatable
+    /// Make a drain hole in the void, or without --hollow in a closed cavity of the model: a point of the surface, a direction inward
+    /// and a diameter; or `auto`, one wherever resin would stay; repeatable
     #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
     drains: Vec<DrainArg>,
     /// Support the model: light, medium or heavy, auto for medium, none, or a JSON file of strength, sizes and points
@@ -421,7 +425,6 @@ impl Choices {
         let given = [
             self.cavity.map(|_| "--cavity"),
             self.infill.map(|_| "--infill"),
-            self.drains.first().map(|_| "--drain"),
         ];
         given.into_iter().flatten().next()
     }
@@ -429,6 +432,12 @@ impl Choices {
     fn put_hollow(&self, options: &mut Options) {
         if let Some(wall_mm) = self.hollow {
             options.hollow.get_or_insert_default().wall_mm = wall_mm;
+        } else if !self.drains.is_empty() {
+            // Holes alone drain the cavities that the model has.
+            options.hollow.get_or_insert_with(|| Hollowing {
+                wall_mm: 0.0,
+                ..Hollowing::default()
+            });
         }
         let Some(hollow) = &mut options.hollow else {
             return;

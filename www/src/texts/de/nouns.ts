@@ -8,6 +8,8 @@ export const EDGES = { one: "Kante", other: "Kanten" };
 export const HOLES = { one: "Loch", other: "Löcher" };
 export const OBJECTS = { one: "Objekt", other: "Objekte" };
 export const PARTS = { one: "Teil", other: "Teile" };
+export const CAVITIES = { one: "Hohlraum bleibt", other: "Hohlräume bleiben" };
+export const BODIES = { one: "Körper des Modells fehlt", other: "Körper des Modells fehlen" };
 export const ISLANDS = { one: "Insel", other: "Inseln" };
 export const POINTS = { one: "Punkt bleibt", other: "Punkte bleiben" };
 

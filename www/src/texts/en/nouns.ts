@@ -8,6 +8,8 @@ export const EDGES = { one: "edge", other: "edges" };
 export const HOLES = { one: "hole", other: "holes" };
 export const OBJECTS = { one: "object", other: "objects" };
 export const PARTS = { one: "part", other: "parts" };
+export const CAVITIES = { one: "cavity of the model stays", other: "cavities of the model stay" };
+export const BODIES = { one: "body", other: "bodies" };
 export const ISLANDS = { one: "island", other: "islands" };
 export const POINTS = { one: "point", other: "points" };
 

@@ -9,6 +9,8 @@ export const EDGES = { one: "arista", other: "aristas" };
 export const HOLES = { one: "agujero tapado", other: "agujeros tapados" };
 export const OBJECTS = { one: "objeto", other: "objetos" };
 export const PARTS = { one: "parte", other: "partes" };
+export const CAVITIES = { one: "cavidad", other: "cavidades" };
+export const BODIES = { one: "cuerpo del modelo falta", other: "cuerpos del modelo faltan" };
 export const ISLANDS = { one: "isla", other: "islas" };
 export const POINTS = { one: "punto queda", other: "puntos quedan" };
 

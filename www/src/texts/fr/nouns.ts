@@ -9,6 +9,8 @@ export const EDGES = { one: "arête", other: "arêtes" };
 export const HOLES = { one: "trou bouché", other: "trous bouchés" };
 export const OBJECTS = { one: "objet", other: "objets" };
 export const PARTS = { one: "partie", other: "parties" };
+export const CAVITIES = { one: "cavité", other: "cavités" };
+export const BODIES = { one: "corps du modèle manque", other: "corps du modèle manquent" };
 export const ISLANDS = { one: "îlot", other: "îlots" };
 export const POINTS = { one: "point reste", other: "points restent" };
 

@@ -1,8 +1,8 @@
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
-import { EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PART_KINDS, PARTS, POINTS, UNITS } from "./nouns.js";
+import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, counted, plural, mm, height, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, plural, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "Le maillage était à l’envers et a été retourné.",
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} à l’envers : retournées.`,
@@ -20,14 +20,19 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
   "unit-stated": ({ stated, given }) => `Le fichier est en ${UNITS[stated]}, comme il le dit, et non en ${UNITS[given]}.`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `Le modèle reste plein : il n’est nulle part assez épais pour des parois de ${mm(wall_mm)} autour d’une cavité de ${mm(cavity_mm)}.`,
+  "nothing-to-drain": () => "Le modèle n’a pas de cavité fermée, donc aucun trou de vidange n’a été fait. Évidez-le.",
   "drain-astray": ({ drain_number }) =>
     `Le trou d’évacuation ${count(drain_number)} ne rencontre aucun vide et est omis. Placez-le là où le modèle est creux, ou tournez-le vers l’intérieur.`,
   undrained: ({ basins }) =>
     `${counted(basins, PARTS)} du vide : la résine y reste, car aucun trou n’en sort à niveau ou vers le bas. Placez-y des trous, ou tournez le modèle.`,
+  "closed-cavities": ({ cavities, volume_mm3, at_mm }) =>
+    `${counted(cavities, CAVITIES)} du modèle sans issue, avec ${volume(volume_mm3)} de résine, la plus grande en ${at_mm.map(tick).join(" ; ")}. Percez-y des trous, ou remplissez-les.`,
   "support-astray": ({ point_number }) => `Le support ${count(point_number)} n’est pas sur le modèle et a été omis ; placez-le sur la surface.`,
   unsupported: ({ points }) => `${counted(points, POINTS)} sans support, car aucun n’y parvient ; tournez le modèle ou choisissez des supports plus légers.`,
   "unclosed-rays": ({ unclosed, rays }) =>
     `${count(unclosed)} rayons sur ${count(rays)} traversent des trous du maillage qui ont été bouchés. Regardez les masques.`,
+  "missed-bodies": ({ bodies, at_mm }) =>
+    `${counted(bodies, BODIES)} dans tous les masques, le plus grand en ${at_mm.map(tick).join(" ; ")} : plus étroit qu’un pixel, aucun rayon ne le rencontre. Épaississez-le, ou choisissez des pixels plus petits.`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `L’erreur atteint ${error(metric, max_error)}, plus que la tolérance de ${error(metric, tolerance)}.`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
@@ -37,6 +42,8 @@ export const warnings = ({ count, counted, plural, mm, height, error, either }: 
     `L’impression finit à ${mm(top_mm)}, car les couches ne font pas exactement ${mm(height_mm)}.`,
   "black-layers": ({ layers, from_mm }) =>
     `${counted(layers, LAYERS)} du plan sans pixel éclairé, à partir de ${height(from_mm)} : des parties flottent en l’air ou sont plus fines qu’un pixel. Regardez-y les masques.`,
+  "erased-parts": ({ layers, from_mm, area_mm2 }) =>
+    `La compensation efface des parties de ${counted(layers, LAYERS)}, à partir de ${height(from_mm)}, au plus ${tick(area_mm2)}\u00a0mm² dans une couche : elles ne sont pas plus épaisses que ce qu’elle enlève. Épaississez-les, ou fixez une largeur minimale qu’elle respecte.`,
   "one-thickness": ({ taker, best }) =>
     `${taker} n’admet qu’une épaisseur pour toutes les couches, et ce plan en a plusieurs ; ` +
     (best === null ? "choisissez des couches uniformes." : `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)} respectent la tolérance.`),

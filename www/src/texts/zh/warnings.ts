@@ -2,7 +2,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS, PART_KINDS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, mm, height, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
   "inside-out": () => "网格内外颠倒，已翻转。",
   "turned-facets": ({ facets }) => `${count(facets)} 个面朝向错误，已翻转。`,
@@ -20,11 +20,16 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
   "unit-stated": ({ stated, given }) => `文件说明其单位为${UNITS[stated]}，而非${UNITS[given]}。`,
   "nothing-hollowed": ({ wall_mm, cavity_mm }) =>
     `模型保持实心：没有任何一处厚到能容下 ${mm(wall_mm)} 的壁和 ${mm(cavity_mm)} 的空腔。`,
+  "nothing-to-drain": () => "模型没有封闭的空腔，因此未开排液孔。请先将其挖空。",
   "drain-astray": ({ drain_number }) => `第 ${count(drain_number)} 个排液孔没有通到空腔，已略去。请把它放在模型空心之处，或使其朝内。`,
   undrained: ({ basins }) => `空腔有 ${count(basins)} 处会滞留树脂：没有孔能水平或向下引出。请在该处开孔，或转动模型。`,
+  "closed-cavities": ({ cavities, volume_mm3, at_mm }) =>
+    `模型有 ${count(cavities)} 个空腔仍然封闭，内含 ${volume(volume_mm3)} 树脂，最大的位于 ${at_mm.map(tick).join("、")}。请向其开孔，或将其填实。`,
   "support-astray": ({ point_number }) => `第 ${count(point_number)} 个支撑不在模型上，已略去。请把它放在表面上。`,
   unsupported: ({ points }) => `有 ${count(points)} 处无法支撑：没有支撑能到达。请转动模型，或选用更轻的支撑。`,
   "unclosed-rays": ({ unclosed, rays }) => `${count(rays)} 条光线中有 ${count(unclosed)} 条穿过已封上的孔洞。请查看掩膜。`,
+  "missed-bodies": ({ bodies, at_mm }) =>
+    `模型有 ${count(bodies)} 个部件不在任何掩膜中，最大的位于 ${at_mm.map(tick).join("、")}：比像素还窄，没有射线穿过。请加厚，或选用更小的像素。`,
   "tolerance-exceeded": ({ metric, tolerance, max_error }) =>
     `误差达到 ${error(metric, max_error)}，超过公差 ${error(metric, tolerance)}。`,
   "tolerance-exceeded-on-mesh": ({ metric, tolerance, max_error }) =>
@@ -33,6 +38,8 @@ export const warnings = ({ count, mm, height, error, either }: Format): WarningS
   "top-moved": ({ top_mm, height_mm }) => `打印止于 ${mm(top_mm)}，因为各层无法恰好凑成 ${mm(height_mm)}。`,
   "black-layers": ({ layers, from_mm }) =>
     `方案中自 ${height(from_mm)} 起有 ${count(layers)} 层没有任何曝光像素：部分结构悬空，或比像素还薄。请查看该处的掩膜。`,
+  "erased-parts": ({ layers, from_mm, area_mm2 }) =>
+    `自 ${height(from_mm)} 起，补偿在 ${count(layers)} 层中抹去了部分结构，单层最多 ${tick(area_mm2)}\u00a0mm²：它们不比补偿减去的更厚。请加厚，或设定补偿须保留的最小宽度。`,
   "one-thickness": ({ taker, best }) =>
     `${taker} 的所有层只能用一种厚度，而本方案有多种；` +
     (best === null ? "请使用均匀分层。" : `${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内。`),

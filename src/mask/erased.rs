@@ -1,0 +1,188 @@
+//! Parts of masks that compensation erases.
+//!
+//! Shrinking takes a rim away, and moving surfaces up that face down takes what is thinner than that; the print grows back over it from what
+//! stays lit beside it. A part that lies farther from all that stays lit in its layer is lost. Such parts are found as masks are shrunk,
+//! row by row, without a mask.
+
+use std::ops::Range;
+
+use super::samples::SublayerOf;
+use super::shrink::{Part, Rows, Shrink};
+use super::step::{Disc, Step, Stretch, without};
+use super::{Samples, Shrinking};
+use crate::ldi::{Ldi, printed_ranges};
+use crate::parallel;
+use crate::plan::Plan;
+use crate::progress::{Cancelled, Progress};
+
+/// How far from what stays lit a part is lost, in parts of what is taken away in x and y: the tip of a corner of 60° lies so far from what
+/// stays of it.
+const REACH_XY: f64 = 2.0;
+
+/// The same along z: the edge of a wedge that rises by 19°, below which surfaces need supports.
+const REACH_Z: f64 = 3.0;
+
+/// Less than this in a layer is left out, as less than a resin printer holds: the smallest island of checks, too.
+const LEAST_MM2: f64 = 0.01;
+
+/// Rows of a band.
+const BAND_ROWS: usize = 256;
+
+/// The area of each layer that compensation erases, in square millimetres, up to the last layer of which it erases any; with several
+/// heights in a layer, the largest of theirs.
+///
+/// Cost: nothing if nothing shrinks; otherwise that of masks, up to the last layer that shrinks.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn erased_mm2(
+    ldi: &Ldi,
+    plan: &Plan,
+    samples: Samples,
+    shrinking: &Shrinking,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<f64>, Cancelled> {
+    let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+    let shrink = Shrink {
+        ldi,
+        sublayer_of: &sublayer_of,
+        shrinking,
+        parts: samples.sublayers,
+        rays: ldi.grid,
+        offset: [0, 0],
+    };
+    let steps = shrink.steps();
+    let height = ldi.grid.height as usize;
+    let rows = (0..height).step_by(BAND_ROWS);
+    let rows: Vec<Range<usize>> = rows.map(|row| row..(row + BAND_ROWS).min(height)).collect();
+    let last = if takes_all_of_a_stretch(&shrink, &rows) {
+        Some(steps.len() - 1)
+    } else {
+        steps.iter().rposition(Step::takes)
+    };
+    let Some(last) = last else {
+        return Ok(Vec::new());
+    };
+    let layers = last + 1;
+    let mut sums = vec![0; layers * samples.sublayers as usize];
+    parallel::map_in_groups(
+        rows.into_iter(),
+        |rows| erased(&shrink, &steps[..layers], rows),
+        |counts| {
+            for (sum, count) in sums.iter_mut().zip(counts) {
+                *sum += count;
+            }
+            Ok::<_, Cancelled>(())
+        },
+        progress,
+        [0.0, 1.0],
+    )?;
+    let ray_mm2 = ldi.grid.pixel_mm2();
+    let of_layers = sums.chunks(samples.sublayers as usize);
+    let mut areas_mm2: Vec<f64> = of_layers
+        .map(|counts| counts.iter().copied().max().unwrap_or(0))
+        .map(|rays: u64| rays as f64 * ray_mm2)
+        .map(|area_mm2| if area_mm2 < LEAST_MM2 { 0.0 } else { area_mm2 })
+        .collect();
+    let end = areas_mm2.iter().rposition(|&area_mm2| area_mm2 > 0.0);
+    areas_mm2.truncate(end.map_or(0, |layer| layer + 1));
+    Ok(areas_mm2)
+}
+
+/// Whether nothing is left of any stretch along a ray where surfaces that face down move up.
+fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
+    if shrink.shrinking.z_mm == 0.0 {
+        return false;
+    }
+    let Shrink {
+        ldi, sublayer_of, ..
+    } = shrink;
+    let width = ldi.grid.width as usize;
+    let found = parallel::map(bands.to_vec(), |rows| {
+        let mut found = false;
+        for ray in rows.start * width..rows.end * width {
+            let mut last_off = 0;
+            printed_ranges(ldi.ray(ray), ldi.classes, |z_in, z_out| {
+                let off = sublayer_of.first_above(z_out);
+                found |= sublayer_of.first_above(z_in) < off && off <= shrink.entry(z_in, last_off);
+                last_off = off;
+            });
+        }
+        found
+    });
+    found.contains(&true)
+}
+
+/// The number of rays that are erased in a band of rows at each sublayer of some layers.
+fn erased(shrink: &Shrink<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
+    let reaches: Vec<Disc> = steps.iter().map(|step| reach_of(shrink, step)).collect();
+    let halo = reaches.iter().map(Disc::rows).max().unwrap_or(0) as usize;
+    let wide = rows.start.saturating_sub(halo)..(rows.end + halo).min(shrink.rays.height as usize);
+    let around = shrink.around(&wide, steps);
+    let mut source = Rows::new(shrink, around.clone(), Part::Raised);
+    let mut whole = Rows::new(shrink, around, Part::Whole);
+    let width = shrink.rays.width as i32;
+    let mut lit: Vec<Vec<Stretch>> = vec![Vec::new(); wide.len()];
+    let mut of_rows = vec![0; rows.len()];
+    let mut last_step = None;
+    let mut counts = Vec::new();
+    for (layer, step) in steps.iter().enumerate() {
+        let is_new_step = last_step != Some(step);
+        last_step = Some(step);
+        for part in 0..shrink.parts {
+            let sublayer = layer as u32 * shrink.parts + part;
+            let mut changed = source.advance(sublayer);
+            let is_all_new = is_new_step && part == 0;
+            for (lit, row) in lit.iter_mut().zip(wide.clone()) {
+                if is_all_new || is_near(&changed, row, step.reach()) {
+                    *lit = step.row(&source, row as i32, width);
+                }
+            }
+            changed.extend(whole.advance(sublayer));
+            let reach = &reaches[layer];
+            let far = step.reach() + reach.rows();
+            for (count, row) in of_rows.iter_mut().zip(rows.clone()) {
+                if is_all_new || is_near(&changed, row, far) {
+                    *count = far_from(&lit, wide.start, reach, row, whole.row(row as i32));
+                }
+            }
+            counts.push(of_rows.iter().sum());
+        }
+    }
+    counts
+}
+
+/// The disc that what stays lit is grown by.
+fn reach_of(shrink: &Shrink<'_>, step: &Step) -> Disc {
+    let reach_mm = REACH_XY * step.taken_mm() + REACH_Z * shrink.shrinking.z_mm;
+    Disc::new(reach_mm, &shrink.rays)
+}
+
+/// Whether a row is within a reach of any of some.
+fn is_near(changed: &[i32], row: usize, reach: i32) -> bool {
+    changed.iter().any(|it| (it - row as i32).abs() <= reach)
+}
+
+/// The number of rays of a row that are out of reach of all that is lit, given the lit stretches of rows from `first` on.
+fn far_from(
+    lit: &[Vec<Stretch>],
+    first: usize,
+    reach: &Disc,
+    row: usize,
+    stretches: &[Stretch],
+) -> u64 {
+    let mut far = stretches.to_vec();
+    for step in 0..=reach.rows() {
+        let half_width = reach.half_width(step);
+        for row in [row as i32 - step, row as i32 + step] {
+            if far.is_empty() {
+                return 0;
+            }
+            let place = usize::try_from(row - first as i32).ok();
+            if let Some(lit) = place.and_then(|place| lit.get(place)) {
+                far = without(&far, lit, half_width);
+            }
+        }
+    }
+    far.iter().map(|it| (it.end - it.start) as u64).sum()
+}
