@@ -1,6 +1,6 @@
 //! Polygons to triangles, by ear cutting.
 //!
-//! A quadrilateral is cut from its first corner to its third where that diagonal is inside it, as trimesh and PrusaSlicer do.
+//! A quadrilateral is cut from its first corner to its third where that diagonal is inside it, as other programs do.
 //! Every corner stays a corner, those along a straight edge too: the neighbours of a face may meet there, and a mesh that was
 //! closed stays closed. (Libraries drop such corners.)
 

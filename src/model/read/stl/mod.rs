@@ -276,10 +276,10 @@ fn read_ascii(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     loop {
         let Some(word) = words.next() else {
             // Some writers leave the last line out.
-            return match triangles.is_empty() && is_open {
-                true => Err(words.end(StlExpected::FacetOrEndsolid)),
-                false => Ok(triangles),
-            };
+            if triangles.is_empty() && is_open {
+                return Err(words.end(StlExpected::FacetOrEndsolid));
+            }
+            return Ok(triangles);
         };
         if is(word, "facet") && (is_open || words.is_next("normal")) {
             triangles.push(read_ascii_facet(&mut words)?);

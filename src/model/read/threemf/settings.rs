@@ -1,5 +1,5 @@
 //! What slicers say of the parts of a 3MF in files of their own: which are subtracted, which only guide the slicer, and which stand on
-//! which plate. OrcaSlicer and Bambu Studio name components, PrusaSlicer ranges of facets.
+//! which plate. `OrcaSlicer` and Bambu Studio name components, `PrusaSlicer` ranges of facets.
 
 use std::ops::RangeInclusive;
 
@@ -11,10 +11,13 @@ use super::{ThreeMfError, XmlFault};
 use crate::model::read::text::named;
 use crate::model::read::{Part, PartKind};
 
-/// Where OrcaSlicer and Bambu Studio have it.
+/// Where `OrcaSlicer` and Bambu Studio have it.
 const ORCA: &str = "Metadata/model_settings.config";
-/// Where PrusaSlicer has it.
+/// Where `PrusaSlicer` has it.
 const PRUSA: &str = "Metadata/Slic3r_PE_model.config";
+
+/// The attributes that matter.
+const ATTRIBUTES: [&[u8]; 6] = [b"id", b"subtype", b"firstid", b"lastid", b"key", b"value"];
 
 /// What is said of parts and plates.
 #[derive(Default)]
@@ -100,17 +103,14 @@ impl Reader {
     }
 
     fn start(&mut self, name: &[u8], attributes: Attributes<'_>) -> Result<(), XmlFault> {
-        let mut given: [Option<&[u8]>; 7] = [None; 7];
-        const NAMES: [&[u8]; 7] = [
-            b"id", b"subtype", b"firstid", b"lastid", b"key", b"value", b"type",
-        ];
+        let mut given: [Option<&[u8]>; 6] = [None; 6];
         for attribute in attributes {
             let (name, value) = attribute?;
-            if let Some(place) = NAMES.iter().position(|it| *it == name) {
+            if let Some(place) = ATTRIBUTES.iter().position(|it| *it == name) {
                 given[place] = Some(value);
             }
         }
-        let [id, subtype, first, last, key, value, _] = given;
+        let [id, subtype, first, last, key, value] = given;
         let number = |value: Option<&[u8]>| str::from_utf8(value?).ok()?.trim().parse().ok();
         match name {
             b"object" => self.object = number(id),
