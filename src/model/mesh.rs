@@ -362,8 +362,10 @@ impl Mesh {
         let placed = turned.into_iter().map(|vertex| (vertex - foot) * scale);
         let mut placed: Vec<DVec3> = placed.collect();
         self.place_centroids(&mut placed);
-        // What is subtracted may reach below the plate, where nothing is printed.
-        if !self.classes.is_model_alone() {
+        // What is subtracted may reach below the plate, where nothing is printed. Supports come later.
+        if !self.of_class(FacetClass::Void).is_empty()
+            && self.of_class(FacetClass::Support).is_empty()
+        {
             for vertex in &mut placed {
                 vertex.z = vertex.z.max(0.0);
             }
