@@ -10,7 +10,7 @@ use rustc_hash::FxHashMap;
 use super::edges::{Across, Edges, Neighbours};
 use super::mesh::sixfold_volume;
 
-/// What is wrong with how facets face.
+/// Facets to turn over, and edges at which no choice is right.
 pub(super) struct Facing {
     /// Whether each facet is to be turned over.
     pub turned: Vec<bool>,
@@ -41,8 +41,8 @@ pub(super) fn facing(
     if is_even && open.is_empty() {
         return None;
     }
-    let boundary = Boundary::of(facets, neighbours);
-    let joints = boundary.joints(vertices, rounding);
+    let boundary = boundary(facets, neighbours);
+    let joints = joints(&boundary, vertices, rounding);
     if is_even && joints.is_empty() {
         return None;
     }
@@ -56,7 +56,7 @@ pub(super) fn facing(
         return None;
     }
     // Volumes about the middle of the boundary, as if each patch were closed by a cone.
-    for edge in &boundary.edges {
+    for edge in &boundary {
         let patch = &mut patches[carried.patch_of[edge.facet as usize] as usize];
         patch.middle += vertices[edge.from as usize].as_dvec3();
         patch.edges += 1;
@@ -95,7 +95,7 @@ struct Patch {
 }
 
 impl Patch {
-    /// Whether it is the other facets that are to be turned.
+    /// Whether the facets that were kept are the ones to turn.
     fn is_opposite(&self) -> bool {
         let [kept, turned] = self.count.map(|count| count as f64);
         let enough = MAJORITY * (kept + turned);
@@ -114,89 +114,83 @@ struct BoundaryEdge {
     to: u32,
 }
 
-struct Boundary {
-    edges: Vec<BoundaryEdge>,
-}
-
 /// Facets whose edges lie on each other: the two facets, and whether they use the shared part in the same direction.
 type Joint = (u32, u32, bool);
 
-impl Boundary {
-    fn of(facets: &[[u32; 3]], neighbours: &Neighbours) -> Self {
-        let mut edges = Vec::new();
-        for (facet, corners) in facets.iter().enumerate() {
-            for edge in 0..3 {
-                let (from, to) = (corners[edge], corners[(edge + 1) % 3]);
-                if from != to && neighbours.across(facet, edge) == Across::Nothing {
-                    edges.push(BoundaryEdge {
-                        facet: facet as u32,
-                        from,
-                        to,
-                    });
-                }
+/// The edges that only one facet has.
+fn boundary(facets: &[[u32; 3]], neighbours: &Neighbours) -> Vec<BoundaryEdge> {
+    let mut edges = Vec::new();
+    for (facet, corners) in facets.iter().enumerate() {
+        for edge in 0..3 {
+            let (from, to) = (corners[edge], corners[(edge + 1) % 3]);
+            if from != to && neighbours.across(facet, edge) == Across::Nothing {
+                edges.push(BoundaryEdge {
+                    facet: facet as u32,
+                    from,
+                    to,
+                });
             }
         }
-        Self { edges }
     }
+    edges
+}
 
-    /// The pairs of edges that share a part of more than rounding.
-    fn joints(&self, vertices: &[Vec3], rounding: f64) -> Vec<Joint> {
-        let at = |vertex: u32| vertices[vertex as usize].as_dvec3();
-        let lengths = self
-            .edges
-            .iter()
-            .map(|edge| at(edge.from).distance(at(edge.to)));
-        let total: f64 = lengths.sum();
-        // Edges then pass a few cells on average.
-        let cell = (total / self.edges.len() as f64).max(4.0 * rounding);
-        let mut ends: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
-        let cell_of = |point: DVec3| (point / cell).floor().to_array().map(|it| it as i64);
-        let mut leaving: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
-        for (index, edge) in self.edges.iter().enumerate() {
-            for vertex in [edge.from, edge.to] {
-                let edges = leaving.entry(vertex).or_default();
-                if edges.is_empty() {
-                    ends.entry(cell_of(at(vertex))).or_default().push(vertex);
-                }
-                edges.push(index as u32);
+/// The pairs of edges that share a part of more than rounding.
+fn joints(boundary: &[BoundaryEdge], vertices: &[Vec3], rounding: f64) -> Vec<Joint> {
+    let at = |vertex: u32| vertices[vertex as usize].as_dvec3();
+    let lengths = boundary
+        .iter()
+        .map(|edge| at(edge.from).distance(at(edge.to)));
+    let total: f64 = lengths.sum();
+    // Edges then pass a few cells on average.
+    let cell = (total / boundary.len() as f64).max(4.0 * rounding);
+    let mut ends: FxHashMap<[i64; 3], Vec<u32>> = FxHashMap::default();
+    let cell_of = |point: DVec3| (point / cell).floor().to_array().map(|it| it as i64);
+    let mut leaving: FxHashMap<u32, Vec<u32>> = FxHashMap::default();
+    for (index, edge) in boundary.iter().enumerate() {
+        for vertex in [edge.from, edge.to] {
+            let edges = leaving.entry(vertex).or_default();
+            if edges.is_empty() {
+                ends.entry(cell_of(at(vertex))).or_default().push(vertex);
             }
+            edges.push(index as u32);
         }
-        let mut joints = Vec::new();
-        for (index, edge) in self.edges.iter().enumerate() {
-            let (from, to) = (at(edge.from), at(edge.to));
-            let along = to - from;
-            let length = along.length();
-            let along = along / length;
-            // Where a point lies along the edge, if it lies on its line.
-            let place = |vertex: u32| {
-                let offset = at(vertex) - from;
-                let place = offset.dot(along);
-                ((offset - along * place).length() <= rounding).then_some(place)
-            };
-            for_cells(from, to, cell, rounding, |key| {
-                for &vertex in ends.get(&key).into_iter().flatten() {
-                    if vertex == edge.from || vertex == edge.to {
-                        continue;
-                    }
-                    let within = rounding..length - rounding;
-                    if !place(vertex).is_some_and(|place| within.contains(&place)) {
-                        continue;
-                    }
-                    for &other in leaving.get(&vertex).into_iter().flatten() {
-                        let other_edge = &self.edges[other as usize];
-                        let ends = [place(other_edge.from), place(other_edge.to)];
-                        if let ([Some(start), Some(end)], true) = (ends, other as usize != index) {
-                            let (one, other) = (edge.facet, other_edge.facet);
-                            joints.push((one.min(other), one.max(other), end > start));
-                        }
+    }
+    let mut joints = Vec::new();
+    for (index, edge) in boundary.iter().enumerate() {
+        let (from, to) = (at(edge.from), at(edge.to));
+        let along = to - from;
+        let length = along.length();
+        let along = along / length;
+        // Where a point lies along the edge, if it lies on its line.
+        let place = |vertex: u32| {
+            let offset = at(vertex) - from;
+            let place = offset.dot(along);
+            ((offset - along * place).length() <= rounding).then_some(place)
+        };
+        for_cells(from, to, cell, rounding, |key| {
+            for &vertex in ends.get(&key).into_iter().flatten() {
+                if vertex == edge.from || vertex == edge.to {
+                    continue;
+                }
+                let within = rounding..length - rounding;
+                if !place(vertex).is_some_and(|place| within.contains(&place)) {
+                    continue;
+                }
+                for &other in leaving.get(&vertex).into_iter().flatten() {
+                    let other_edge = &boundary[other as usize];
+                    let ends = [place(other_edge.from), place(other_edge.to)];
+                    if let ([Some(start), Some(end)], true) = (ends, other as usize != index) {
+                        let (one, other) = (edge.facet, other_edge.facet);
+                        joints.push((one.min(other), one.max(other), end > start));
                     }
                 }
-            });
-        }
-        joints.sort_unstable();
-        joints.dedup();
-        joints
+            }
+        });
     }
+    joints.sort_unstable();
+    joints.dedup();
+    joints
 }
 
 /// Calls `visit` with the cells of a lattice that a segment passes, widened by `margin`.

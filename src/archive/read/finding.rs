@@ -16,14 +16,14 @@ pub enum FileFinding {
     NoLayers,
     /// Layers end at a height that is no finite number.
     BadHeights {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
     },
     /// Layers have an exposure that is no finite number.
     BadExposures {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
@@ -37,7 +37,7 @@ pub enum FileFinding {
     },
     /// Layers end at or below the top of the layer before.
     HeightsNotAscending {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
@@ -57,14 +57,14 @@ pub enum FileFinding {
     },
     /// Layers have no exposure.
     NoExposure {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
     },
     /// No pixel of these layers is lit.
     BlackLayers {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
@@ -82,7 +82,7 @@ pub enum FileFinding {
     },
     /// The bytes that end a layer's settings and data are not where they should be.
     MissingMarks {
-        /// How many.
+        /// Number of such layers.
         layers: usize,
         /// The first of them.
         first_layer: usize,
@@ -124,6 +124,17 @@ impl<T> Tally<T> {
 /// Thicknesses that differ by less are equal: heights are rounded to a micrometre.
 const SAME_MM: f64 = 0.0015;
 
+/// Number of layers that are affected, and the first of them, counted from 1; `None` if none is.
+fn number_and_first(affected: impl Iterator<Item = bool>) -> Option<[usize; 2]> {
+    let mut tally = Tally::default();
+    for (place, _) in affected.enumerate().filter(|(_, is_affected)| *is_affected) {
+        tally.count(place + 1, ());
+    }
+    tally
+        .first
+        .map(|(first_layer, ())| [tally.layers, first_layer])
+}
+
 /// Takes out exposures and nominal values that are not finite, and says which there were.
 pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<FileFinding> {
     let take = |value: &mut Option<f64>| value.take_if(|value| !value.is_finite()).is_some();
@@ -136,18 +147,13 @@ pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<Fi
     if nominal.map(take).contains(&true) {
         findings.push(FileFinding::BadNominalValues);
     }
-    let mut endless = Tally::default();
-    for (place, layer) in layers.iter_mut().enumerate() {
-        if take(&mut layer.exposure_s) {
-            endless.count(place + 1, ());
-        }
-    }
-    if let Some((first_layer, ())) = endless.first {
-        findings.push(FileFinding::BadExposures {
-            layers: endless.layers,
+    let endless = layers.iter_mut().map(|layer| take(&mut layer.exposure_s));
+    findings.extend(number_and_first(endless).map(|[layers, first_layer]| {
+        FileFinding::BadExposures {
+            layers,
             first_layer,
-        });
-    }
+        }
+    }));
     findings
 }
 
@@ -157,18 +163,13 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
     let Some(first) = layers.first() else {
         return vec![FileFinding::NoLayers];
     };
-    let mut nowhere = Tally::default();
-    for (place, layer) in layers.iter().enumerate() {
-        if !layer.z_mm.is_finite() {
-            nowhere.count(place + 1, ());
-        }
-    }
-    if let Some((first_layer, ())) = nowhere.first {
-        findings.push(FileFinding::BadHeights {
-            layers: nowhere.layers,
+    let nowhere = layers.iter().map(|layer| !layer.z_mm.is_finite());
+    findings.extend(number_and_first(nowhere).map(|[layers, first_layer]| {
+        FileFinding::BadHeights {
+            layers,
             first_layer,
-        });
-    }
+        }
+    }));
     let is_finite = |z_mm: f64| z_mm.is_finite();
     if is_finite(first.z_mm) && first.z_mm <= 0.0 {
         findings.push(FileFinding::FirstLayerBelowPlate { z_mm: first.z_mm });
@@ -201,18 +202,15 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
             layer_mm: about.layer_mm,
         });
     }
-    let mut unexposed = Tally::default();
-    for (place, layer) in layers.iter().enumerate() {
-        if layer.exposure_s.is_some_and(|exposure_s| exposure_s <= 0.0) {
-            unexposed.count(place + 1, ());
-        }
-    }
-    if let Some((first_layer, ())) = unexposed.first {
-        findings.push(FileFinding::NoExposure {
-            layers: unexposed.layers,
+    let unexposed = layers
+        .iter()
+        .map(|layer| layer.exposure_s.is_some_and(|exposure_s| exposure_s <= 0.0));
+    findings.extend(number_and_first(unexposed).map(|[layers, first_layer]| {
+        FileFinding::NoExposure {
+            layers,
             first_layer,
-        });
-    }
+        }
+    }));
     findings
 }
 
