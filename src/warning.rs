@@ -65,7 +65,7 @@ pub enum Warning {
     SkippedPart {
         /// Its name.
         name: String,
-        /// What it is.
+        /// Its kind.
         kind: PartKind,
     },
     /// The project has several plates, of which one was read.

@@ -134,7 +134,7 @@ fn a_sheet_that_is_thinner_than_the_print_through_is_warned_of() {
     let (layers, from_mm, area_mm2) = erased(&report).unwrap();
     assert_eq!(layers, 3);
     assert_near(from_mm, 9.7, 0.01);
-    // But for what lies within three times the print-through of the block.
+    // Except for what lies within three times the print-through of the block.
     assert_near(area_mm2, 14.1 * 16.0, 3.0);
     assert_eq!(erased(&plan(&mut model, &options(through(0.1)))), None);
 }

@@ -15,7 +15,7 @@ const browsers = {
 
 export default defineConfig({
   test: {
-    // All cores: by default one is left to whoever watches.
+    // All cores: by default vitest leaves one free.
     maxWorkers: "100%",
     projects: [
       { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },

@@ -15,7 +15,7 @@ use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
 
-/// How far from what stays lit a part is lost, in parts of what is taken away in x and y: the tip of a corner of 60° lies so far from what
+/// Distance from what stays lit at which a part is lost, in parts of what is taken away in x and y: the tip of a corner of 60° lies so far from what
 /// stays of it.
 const REACH_XY: f64 = 2.0;
 

@@ -19,7 +19,7 @@ pub struct Shrinking {
     pub xy_mm: Vec<f64>,
     /// By how much surfaces that face down move up, in millimetres.
     pub z_mm: f64,
-    /// The least width that shrinking leaves, measured along rows and columns, in millimetres: what is narrower stays as it is; 0 for none.
+    /// The least width that shrinking leaves, measured along rows and columns, in millimetres; narrower features are not changed. 0 for none.
     pub least_mm: f64,
 }
 
@@ -46,7 +46,7 @@ pub(super) struct Shrink<'a> {
 }
 
 impl Shrink<'_> {
-    /// How each layer shrinks.
+    /// The step of each layer.
     pub fn steps(&self) -> Vec<Step> {
         let Shrinking {
             xy_mm, least_mm, ..
@@ -111,7 +111,7 @@ impl Shrink<'_> {
     }
 }
 
-/// What rows are read from the rays.
+/// Rows as read from the rays.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Part {
     /// All that stays lit where surfaces that face down are moved up.

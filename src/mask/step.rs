@@ -1,4 +1,4 @@
-//! How the lit stretches of a row of rays shrink and grow.
+//! Shrinking and growing of the lit stretches of a row of rays.
 
 use std::ops::Range;
 
@@ -36,7 +36,7 @@ impl Disc {
         self.half_widths.len() as i32 - 1
     }
 
-    /// Columns on each side of its middle, so many rows from there.
+    /// Columns on each side of its middle line, in the row at this distance from the middle.
     pub fn half_width(&self, rows: i32) -> i32 {
         self.half_widths[rows as usize]
     }
@@ -47,7 +47,7 @@ impl Disc {
     }
 }
 
-/// How a layer shrinks, or grows.
+/// The shrinking or growing of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
     /// By how much on each side, in millimetres; negative if it grows.
@@ -94,7 +94,7 @@ impl Step {
         !self.grows() && !self.disc.is_point()
     }
 
-    /// What it takes away on each side, in millimetres.
+    /// The width that it takes away on each side, in millimetres.
     pub fn taken_mm(&self) -> f64 {
         self.mm.max(0.0)
     }
@@ -114,7 +114,7 @@ impl Step {
         }
     }
 
-    /// What else stays lit of a row, where it is narrow: the middle of it, as wide as the least width, across the direction in which it is
+    /// The rest of a row that stays lit where it is narrow: the middle of it, as wide as the least width, across the direction in which it is
     /// narrower; along the other nothing is taken away.
     fn kept(
         &self,
@@ -214,7 +214,7 @@ fn grown(source: &Rows, disc: &Disc, row: i32, width: i32) -> Vec<Stretch> {
     result
 }
 
-/// What is left of stretches without others, each made longer on both sides.
+/// The stretches less others, each of which is made longer on both sides.
 pub(super) fn without(stretches: &[Stretch], others: &[Stretch], half_width: i32) -> Vec<Stretch> {
     let mut rest = Vec::with_capacity(stretches.len());
     let mut first = 0;

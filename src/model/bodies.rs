@@ -127,7 +127,7 @@ fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
     around.as_chunks().0.to_vec()
 }
 
-/// How often a mesh winds around points, given the facets that a point leaves out.
+/// The winding numbers of points, given the facets that a point leaves out.
 pub(crate) fn windings_at(
     mesh: &Mesh,
     points: &[DVec3],

@@ -34,7 +34,7 @@ pub(super) struct Joined {
 }
 
 /// Joins the cavities that the core of the void meets once they are filled: what they are joined by is as wide as the smallest cavity.
-/// Without a depth of the core there is none, and all of them are joined.
+/// If `depth_mm` is absent, the void has no core, and all cavities are joined.
 pub(super) fn joined(
     model: Columns,
     cavities: &Cavities,

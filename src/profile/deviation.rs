@@ -43,7 +43,7 @@ struct Level {
 /// Bins that a search for the nearest point of a path may leave out at once.
 const WINDOW: u32 = 32;
 
-/// The tangent of a flat among so many bins: farther than any layer is thick, so that no path leads past it.
+/// The tangent of a flat in a model of `bins` bins: farther than any layer is thick, so that no path leads past it.
 fn flat(bins: usize) -> f64 {
     4.0 * bins as f64 + 4.0
 }

@@ -101,7 +101,7 @@ pub struct Target {
     /// Resin, as a JSON file: exposures, bottom layers, lift, growth
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
-    /// Least width of a feature that making up for growth in x and y leaves: what is narrower stays as it is
+    /// Least width that compensation in x and y leaves; narrower features are not changed
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Printer")]
     min_feature: Option<f64>,
 }

@@ -172,7 +172,7 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes.map_err(|error| in_file(path, &error))?)
 }
 
-/// What to read of a model, and to apply to it.
+/// Choices for reading a model: its plate, and weights to apply.
 #[derive(Default)]
 pub struct Reading {
     pub weights: Option<WeightsFile>,

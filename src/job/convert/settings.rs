@@ -63,7 +63,7 @@ fn to_nanometres(length_mm: f64) -> f64 {
     (length_mm * 1e6).round() / 1e6
 }
 
-/// What the layers of the new file are exposed by.
+/// Exposures of the new file.
 pub(super) struct Exposures {
     /// The resin.
     pub resin: Resin,
@@ -145,7 +145,7 @@ fn positive(value: Option<f64>) -> Option<f64> {
     value.filter(|value| *value > 0.0)
 }
 
-/// What the head of a file says of all exposures. Without an exposure of bottom layers, there are none.
+/// The exposures that the head of a file states for all layers. Without an exposure of bottom layers, there are none.
 fn nominal(about: &About) -> Option<Schedule> {
     let usual_s = positive(about.exposure_s)?;
     let transition_layers = about.transition_layers.unwrap_or(0) as usize;
@@ -257,7 +257,7 @@ fn rests_s(layer: &LayerRead) -> Option<[f64; 3]> {
     is_stated.then(|| rests_s.map(Option::unwrap_or_default))
 }
 
-/// What one lift and one rest for all layers lose.
+/// The losses of one lift and one rest for all layers.
 pub(super) fn lost_moves(layers: &[LayerRead], resin: &Resin) -> Vec<Loss> {
     let mut losses = Vec::new();
     let usual = &layers[layers.len() / 2];

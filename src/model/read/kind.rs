@@ -51,7 +51,7 @@ impl FileKind {
         }
     }
 
-    /// What it is and what the user can do instead, in a sentence.
+    /// The sentence that names the file and says what to do instead.
     pub(crate) fn sentence(self) -> String {
         let name = self.name();
         let noun = match self {

@@ -47,11 +47,11 @@ pub struct Contents {
 pub struct Part {
     /// Its name in the project.
     pub name: String,
-    /// What it is.
+    /// Its kind.
     pub kind: PartKind,
 }
 
-/// What a part of a project is, other than a solid.
+/// The kind of a part that is no solid.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

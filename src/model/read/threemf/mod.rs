@@ -1,7 +1,7 @@
 //! 3MF to triangles: a zip of XML parts, with objects, their components, and the items to build of them.
 //!
 //! Facets count, and where they are: units, transforms, components in other parts (the production extension). Colours,
-//! materials and textures do not, nor do slicers' settings, but for which parts are no solids. A part is inflated and read as a stream; only the objects of the file are
+//! materials and textures do not, nor do slicers' settings, except for parts that are not solids. A part is inflated and read as a stream; only the objects of the file are
 //! held in memory, and then their triangles.
 
 mod build;
@@ -27,7 +27,7 @@ const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmo
 /// Where it nearly always is.
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// Reads what a 3MF builds: the facets of all its items, or of those on one plate, each as often as it is placed, in file order.
+/// Reads what a 3MF builds: the facets of all its items, or of those on one plate, once for each placement, in file order.
 ///
 /// # Errors
 /// [`ThreeMfError`], with the part and the line where reading failed; [`ReadError::OtherKind`] for other zips.

@@ -1,5 +1,4 @@
-//! What slicers say of the parts of a 3MF in files of their own: which are subtracted, which only guide the slicer, and which stand on
-//! which plate. `OrcaSlicer` and Bambu Studio name components, `PrusaSlicer` ranges of facets.
+//! Slicers' own files in a 3MF: the parts that are subtracted, the parts that only guide the slicer, and the parts of each plate. `OrcaSlicer` and Bambu Studio name components, `PrusaSlicer` ranges of facets.
 
 use std::ops::RangeInclusive;
 
@@ -11,15 +10,15 @@ use super::{ThreeMfError, XmlFault};
 use crate::model::read::text::named;
 use crate::model::read::{Part, PartKind};
 
-/// Where `OrcaSlicer` and Bambu Studio have it.
+/// The file of `OrcaSlicer` and Bambu Studio.
 const ORCA: &str = "Metadata/model_settings.config";
-/// Where `PrusaSlicer` has it.
+/// The file of `PrusaSlicer`.
 const PRUSA: &str = "Metadata/Slic3r_PE_model.config";
 
 /// The attributes that matter.
 const ATTRIBUTES: [&[u8]; 6] = [b"id", b"subtype", b"firstid", b"lastid", b"key", b"value"];
 
-/// What is said of parts and plates.
+/// Parts that are no solids, and plates.
 #[derive(Default)]
 pub struct Settings {
     /// Parts by object and component.
