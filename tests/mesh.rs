@@ -285,6 +285,38 @@ fn wide_bent_holes_are_closed_where_the_winding_number_is_one_half() {
 }
 
 #[test]
+fn on_request_all_holes_are_closed_where_the_winding_number_is_one_half() {
+    // Too flat a saddle to be closed that way otherwise.
+    let mut bowl = solids::sphere(10.0, 5);
+    bowl.retain(|&[a, b, c]| {
+        let middle = (a + b + c) / 3.0;
+        middle.z < 2.0 + (middle.x * middle.x - middle.y * middle.y) / 200.0
+    });
+    let mut random = fastrand::Rng::with_seed(6);
+    let points: Vec<DVec3> = (0..2000)
+        .map(|_| {
+            let [x, y, z] = std::array::from_fn(|_| random.f64());
+            DVec3::new(16.0 * x - 8.0, 16.0 * y - 8.0, 2.0 * z + 1.0)
+        })
+        .collect();
+    let open = || bowl.iter().map(|it| it.map(Vec3::as_dvec3));
+    let exact: Vec<bool> = points.iter().map(|&it| winding(open(), it) > 0.5).collect();
+    let [fan, curved] = [false, true].map(|all_curved| {
+        let mesh = Mesh::with_caps(&bowl, all_curved).unwrap();
+        assert_eq!((mesh.holes, unbalanced_edges(&mesh)), (1, 0));
+        let closed = || (0..mesh.facets.len()).map(|facet| mesh.corners(facet));
+        let is_inside = points
+            .iter()
+            .map(|&it| winding(closed(), it).round() != 0.0);
+        is_inside.zip(&exact).filter(|(a, b)| a != *b).count()
+    });
+    assert!(
+        2 * curved < fan,
+        "{curved} of the curved cap, {fan} of the fan"
+    );
+}
+
+#[test]
 fn a_hole_with_a_long_border_is_closed_by_a_fan() {
     let quarter = 20_000;
     let mut triangles = solids::cylinder(8.0, 12.0, quarter);

@@ -24,6 +24,8 @@ pub const FACTS: FileFacts = FileFacts {
         bytes: 0,
         crc32: 0,
         plate: None,
+        surfaces: false,
+        curved_caps: false,
     },
     unit: None,
     skipped_objects: 0,

@@ -88,6 +88,8 @@ const MODEL: ModelFile = ModelFile {
     bytes: 684,
     crc32: 1,
     plate: None,
+    surfaces: false,
+    curved_caps: false,
 };
 
 /// That plan, as the seed of [`plan`].

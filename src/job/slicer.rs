@@ -26,7 +26,7 @@ use crate::inspect::{self, Held, Printability};
 use crate::ldi::LdiError;
 use crate::ldi::gpu::Gpu;
 use crate::mask::{MaskCursor, Masks, RunSource, Side};
-use crate::model::read::PartKind;
+use crate::model::read::{PartKind, ReadOptions};
 use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
 use crate::plan::Plan;
@@ -69,17 +69,17 @@ impl Slicer {
     /// # Errors
     /// [`Error::Read`], [`Error::Mesh`].
     pub fn load(bytes: &[u8]) -> Result<Self, Error> {
-        Self::load_plate(bytes, None)
+        Self::load_with(bytes, &ReadOptions::default())
     }
 
-    /// Reads a plate of a project, from 1.
+    /// Reads a model with choices.
     ///
     /// # Errors
     /// [`Error::Read`], [`Error::Mesh`].
-    pub fn load_plate(bytes: &[u8], plate_number: Option<u32>) -> Result<Self, Error> {
+    pub fn load_with(bytes: &[u8], options: &ReadOptions) -> Result<Self, Error> {
         let clock = Instant::now();
-        let contents = read::read_plate(bytes, plate_number)?;
-        let facts = FileFacts::new(bytes, &contents);
+        let contents = read::read_with(bytes, options)?;
+        let facts = FileFacts::new(bytes, options, &contents);
         let mut slicer = Self::of_triangles(&contents.triangles, facts)?;
         slicer.model = slicer.model.without(&contents.negative)?;
         slicer.load_ms = ms_since(clock);
@@ -92,7 +92,7 @@ impl Slicer {
     /// [`Error::Mesh`].
     pub fn of_triangles(triangles: &[[Vec3; 3]], facts: FileFacts) -> Result<Self, Error> {
         let clock = Instant::now();
-        let model = Mesh::from_triangles(triangles)?;
+        let model = Mesh::with_caps(triangles, facts.file.curved_caps)?;
         Ok(Self {
             model,
             facts,

@@ -9,6 +9,7 @@ use super::report::OF_THE_MACHINE;
 use super::stage::StageProgress;
 use super::{Error, Options, Plate, Report, SCHEMA};
 use crate::model::ModelFile;
+use crate::model::read::ReadOptions;
 use crate::warning::Warning;
 
 /// Why a plan is rejected.
@@ -161,6 +162,13 @@ impl Claim {
         }
         let claims = plates.into_iter().map(|plate| Self::of(plate, models));
         claims.collect()
+    }
+
+    /// The choices with which the plan's model was read, as far as it says so. Whether it is right about that is found out with the rest.
+    pub fn read_options(json: &str) -> ReadOptions {
+        let model = read(json)
+            .and_then(|report| ModelFile::deserialize(&report["model"]).map_err(not_a_plan));
+        model.map_or_else(|_| ReadOptions::default(), |it| it.read_options())
     }
 
     fn of(report: Value, models: &[&ModelFile]) -> Result<Self, VerifyError> {

@@ -26,11 +26,13 @@ pub(super) struct Bent {
     /// The direction in which the cap faces.
     normal: DVec3,
     width: f64,
+    /// The farthest that the border leaves the plane through the middle.
+    rise: f64,
 }
 
 impl Bent {
-    /// The hole, if it is wide for a model of this size and its border is bent.
-    pub fn of(hole: &[u32], vertices: &[Vec3], side: f64) -> Option<Self> {
+    /// The hole, unless its border has too few or too many edges, or no area.
+    pub fn of(hole: &[u32], vertices: &[Vec3]) -> Option<Self> {
         if !(4..=MOST_EDGES).contains(&hole.len()) {
             return None;
         }
@@ -46,13 +48,19 @@ impl Bent {
         }
         let normal = normal.try_normalize()?;
         let rises = border.iter().map(|it| (*it - middle).dot(normal).abs());
-        let is_bent = rises.fold(0.0, f64::max) > BENT * width;
-        (width > WIDE * side && is_bent).then_some(Self {
+        let rise = rises.fold(0.0, f64::max);
+        Some(Self {
             border,
             middle,
             normal,
             width,
+            rise,
         })
+    }
+
+    /// Whether it is wide for a model whose largest side this is, and bent.
+    pub fn is_wide(&self, side: f64) -> bool {
+        self.width > WIDE * side && self.rise > BENT * self.width
     }
 
     /// Closes the hole. The vertices within its border are added to `vertices`.

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::ModelUnit;
-use super::read::{Contents, Part, PlateChoice};
+use super::read::{Contents, Part, PlateChoice, ReadOptions};
 use crate::crc::crc32;
 
 /// Identifies the file of a model by its length and checksum.
@@ -18,6 +18,12 @@ pub struct ModelFile {
     /// The plate that was read, if it is a project of several.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<PlateChoice>,
+    /// See [`ReadOptions::surfaces`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub surfaces: bool,
+    /// See [`ReadOptions::curved_caps`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub curved_caps: bool,
 }
 
 impl ModelFile {
@@ -27,6 +33,17 @@ impl ModelFile {
             bytes: bytes.len(),
             crc32: crc32(bytes),
             plate: None,
+            surfaces: false,
+            curved_caps: false,
+        }
+    }
+
+    /// The choices with which it was read.
+    pub fn read_options(&self) -> ReadOptions {
+        ReadOptions {
+            plate_number: self.plate.map(|plate| plate.plate_number),
+            surfaces: self.surfaces,
+            curved_caps: self.curved_caps,
         }
     }
 }
@@ -46,11 +63,13 @@ pub struct FileFacts {
 }
 
 impl FileFacts {
-    /// The facts of a file with these bytes, read as `contents`.
-    pub fn new(bytes: &[u8], contents: &Contents) -> Self {
+    /// The facts of a file with these bytes, read with these choices as `contents`.
+    pub fn new(bytes: &[u8], options: &ReadOptions, contents: &Contents) -> Self {
         Self {
             file: ModelFile {
                 plate: contents.plate,
+                surfaces: options.surfaces,
+                curved_caps: options.curved_caps,
                 ..ModelFile::of(bytes)
             },
             unit: contents.unit,

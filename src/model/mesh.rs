@@ -114,6 +114,14 @@ impl Mesh {
     /// # Errors
     /// [`MeshError::NoArea`] if no facet has an area.
     pub fn from_triangles(triangles: &[[Vec3; 3]]) -> Result<Self, MeshError> {
+        Self::with_caps(triangles, false)
+    }
+
+    /// The same, with all holes closed where the generalised winding number is one half if `all_curved`, and not only wide bent ones.
+    ///
+    /// # Errors
+    /// As [`Self::from_triangles`].
+    pub fn with_caps(triangles: &[[Vec3; 3]], all_curved: bool) -> Result<Self, MeshError> {
         let (mut vertices, welded) = weld(triangles);
         let rounding = rounding(&vertices);
         let (mut facets, flat): (Vec<_>, Vec<_>) = welded
@@ -142,9 +150,11 @@ impl Mesh {
         let side = sides(&vertices).max_element();
         let mut flat = Vec::new();
         for hole in &loops {
-            match Bent::of(hole, &vertices, side) {
-                Some(bent) => bent.cap(hole, &mut vertices, &mut facets),
-                None => flat.push(hole),
+            match Bent::of(hole, &vertices) {
+                Some(bent) if all_curved || bent.is_wide(side) => {
+                    bent.cap(hole, &mut vertices, &mut facets);
+                }
+                _ => flat.push(hole),
             }
         }
         let centroids_from = vertices.len() as u32;

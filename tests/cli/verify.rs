@@ -6,6 +6,7 @@ use tempfile::TempDir;
 
 use super::{assert_fails, cusp, json, model, on_cpu, sphere};
 use crate::common::{binary_stl, solids};
+use crate::read::package;
 
 #[test]
 fn verify_accepts_what_plan_and_slice_made_and_nothing_else() {
@@ -68,6 +69,43 @@ fn every_command_that_plans_gives_the_same_warnings() {
         let stderr = String::from_utf8(output.stderr).unwrap();
         assert!(stderr.contains(&said), "{stderr}");
     }
+}
+
+#[test]
+fn choices_of_reading_are_in_the_plan_and_verify_follows_them() {
+    let folder = TempDir::new().unwrap();
+    let mut bowl = solids::sphere(8.0, 3);
+    bowl.retain(|corners| corners.iter().all(|corner| corner.z < 4.0));
+    let surface = package::object(1, &bowl).replace("\"model\"", "\"surface\"");
+    let text = package::model("", &surface, "<item objectid=\"1\"/>");
+    let model = model(&folder, "bowl.3mf", &package::package(&text, &[]));
+    let choices = ["--surfaces", "--curved-caps"];
+    assert_fails(&cusp(&["info", &model]), 1, "no facets to print");
+    let info = json(&cusp(&[&["info", &model, "--json"], &choices[..]].concat()));
+    assert_eq!(info["holes"], 1);
+    let plan = folder.path().join("plan.json").display().to_string();
+    let planned = on_cpu(&[&["plan", &model, "--json"], &choices[..]].concat());
+    std::fs::write(&plan, &planned.stdout).unwrap();
+    let file = &json(&planned)["model"];
+    assert_eq!(
+        (&file["surfaces"], &file["curved_caps"]),
+        (&true.into(), &true.into())
+    );
+    assert!(cusp(&["verify", &plan, &model]).status.success());
+    let other = String::from_utf8(planned.stdout).unwrap();
+    let other = other.replace("\"surfaces\":true,", "");
+    std::fs::write(&plan, other).unwrap();
+    assert_fails(&cusp(&["verify", &plan, &model]), 1, "no facets to print");
+    let job = folder.path().join("job.json");
+    let text = r#"{ "models": [{ "file": "bowl.3mf", "copies": 2, "surfaces": true, "curved_caps": true }] }"#;
+    std::fs::write(&job, text).unwrap();
+    let job = job.display().to_string();
+    let planned = json(&on_cpu(&["plan", &job, "--json"]));
+    let file = &planned["plates"][0]["plate"]["models"][0]["file"];
+    assert_eq!(
+        (&file["surfaces"], &file["curved_caps"]),
+        (&true.into(), &true.into())
+    );
 }
 
 #[test]

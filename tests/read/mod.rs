@@ -3,7 +3,7 @@
 mod damage;
 mod kinds;
 mod obj;
-mod package;
+pub mod package;
 mod refused;
 mod stl;
 mod threemf;

@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 use cusp_slicer::job::{Options, Slicer};
 use cusp_slicer::model::read::kind::FileKind;
 use cusp_slicer::model::read::threemf::ThreeMfError;
-use cusp_slicer::model::read::{Contents, PartKind, ReadError, read, read_plate};
+use cusp_slicer::model::read::{Contents, PartKind, ReadError, ReadOptions, read, read_with};
 use cusp_slicer::model::{Mesh, ModelUnit};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -200,18 +200,26 @@ fn ranges_of_facets_are_parts_as_prusaslicer_writes_them() {
     assert!(kinds.eq([PartKind::Negative, PartKind::Modifier]));
 }
 
+fn read_plate(bytes: &[u8], plate_number: u32) -> Result<Contents, ReadError> {
+    let options = ReadOptions {
+        plate_number: Some(plate_number),
+        ..ReadOptions::default()
+    };
+    read_with(bytes, &options)
+}
+
 #[test]
 fn a_plate_of_a_project_is_chosen_by_its_number() {
     let bytes = project();
-    let first = read_plate(&bytes, Some(1)).unwrap();
+    let first = read_plate(&bytes, 1).unwrap();
     assert_eq!(first.triangles, read(&bytes).unwrap().triangles);
-    let second = read_plate(&bytes, Some(2)).unwrap();
+    let second = read_plate(&bytes, 2).unwrap();
     assert_eq!((second.triangles.len(), second.parts.len()), (24, 0));
     let choice = second.plate.unwrap();
     assert_eq!((choice.plate_number, choice.plates), (2, 2));
     // The third has nothing on it.
     for (bytes, plates) in [(&bytes, 2), (&of(&solids::cube(2.0)), 1)] {
-        let error = read_plate(bytes, Some(3)).unwrap_err();
+        let error = read_plate(bytes, 3).unwrap_err();
         let plate_number = 3;
         assert_eq!(
             error,
@@ -334,6 +342,14 @@ fn only_what_is_built_and_printed_counts() {
     let contents = read_model("", &resources, &build).unwrap();
     assert_eq!(contents.triangles, [cube.clone(), cube].concat());
     assert_eq!(contents.skipped_objects, 4);
+    let options = ReadOptions {
+        surfaces: true,
+        ..ReadOptions::default()
+    };
+    let bytes = package(&model("", &resources, &build), &[]);
+    let contents = read_with(&bytes, &options).unwrap();
+    assert_eq!(contents.triangles.len(), 3 * 12);
+    assert_eq!(contents.skipped_objects, 3);
     let none = error(&resources, "<item objectid=\"3\"/>");
     assert_eq!(none, ThreeMfError::NoFacets { skipped: 1 });
 }

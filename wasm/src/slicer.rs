@@ -10,7 +10,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{self, Calibration, Error, Options, OptionsError, Stage};
 use cusp_slicer::mask::LayerRuns;
-use cusp_slicer::model::read::{self, HEAD_BYTES};
+use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
 use cusp_slicer::model::{FacetClass, weights};
 use cusp_slicer::orientation::packed::{pack, unpack};
 use cusp_slicer::orientation::{Search, SearchOptions, Task, TaskResult};
@@ -173,9 +173,14 @@ impl Slicer {
     ///
     /// # Errors
     /// Throws a `CuspError` if the bytes are not a usable model.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
     #[wasm_bindgen(constructor)]
-    pub fn new(file: &[u8]) -> Result<Slicer, JsValue> {
-        let slicer = job::Slicer::load(file).map_err(throw)?;
+    pub fn new(file: &[u8], options: Ts<ReadOptions>) -> Result<Slicer, JsValue> {
+        let options = options.to_rust().map_err(throw_conversion)?;
+        let slicer = job::Slicer::load_with(file, &options).map_err(throw)?;
         Ok(Self {
             slicer,
             preview_density: Vec::new(),

@@ -5,7 +5,7 @@ import { unzipSync, zipSync } from "fflate";
 import { expect, test } from "vitest";
 import { download, drop, layers, maskOf, openPanel, state, words } from "./browser.js";
 import { pages } from "./pages.js";
-import { objOf, sphere, threeMfOf } from "./solids.js";
+import { objOf, projectOf, sphere, threeMfOf } from "./solids.js";
 
 /** What the tests read from the manifest. */
 interface Manifest {
@@ -100,6 +100,16 @@ test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: 
   await (await opening).setFiles({ name: "opened.3mf", mimeType: "", buffer: Buffer.from(threeMfOf(bytes)) });
   await opened("opened.3mf");
   expect(new Set(plans).size).toBe(1);
+  // A project is read plate by plate: on the second, two stand side by side.
+  await drop(page, { name: "project.3mf", bytes: projectOf(bytes) });
+  await opened("project.3mf");
+  await page.getByLabel("Plate 1 of 2 is read.").selectOption("Plate 2 of 2");
+  const list = page.getByLabel("Plate 2 of 2 is read.");
+  await list.waitFor();
+  await state(page, "done");
+  expect(await list.inputValue()).toBe("2");
+  const facets = 2 * (bytes.length - 84) / 50;
+  expect(await page.locator(".model").innerText()).toContain(facets.toLocaleString("en"));
 });
 
 test("files that will not do are refused in words, and the page goes on with the model before", async () => {

@@ -134,16 +134,24 @@ export function objOf(stl: Uint8Array): Uint8Array {
   return new TextEncoder().encode(`${lines.join("\n")}\n`);
 }
 
+/** The model of an STL as a 3MF: on the first of two plates once, on the second twice. */
+export function projectOf(stl: Uint8Array): Uint8Array {
+  const instance = (id: number): string => `<model_instance><metadata key="object_id" value="1"/><metadata key="instance_id" value="${id}"/></model_instance>`;
+  const settings = `<config><plate>${instance(0)}</plate><plate>${instance(1)}${instance(2)}</plate></config>`;
+  const places = [0, 100, 150].map((x) => `<item objectid="1" transform="1 0 0 0 1 0 0 0 1 ${x} 0 0"/>`);
+  return threeMfOf(stl, places.join(""), { "Metadata/model_settings.config": strToU8(settings) });
+}
+
 /** The model of an STL as a 3MF. */
-export function threeMfOf(stl: Uint8Array): Uint8Array {
+export function threeMfOf(stl: Uint8Array, items = '<item objectid="1"/>', others: Record<string, Uint8Array> = {}): Uint8Array {
   const { corners, triangles } = indexed(stl);
   const tag = (name: string, keys: readonly string[], values: readonly (string | number)[]): string =>
     `<${name} ${keys.map((key, i) => `${key}="${values[i]}"`).join(" ")}/>`;
   const vertices = corners.map((corner) => tag("vertex", ["x", "y", "z"], corner.split(" ")));
   const facets = triangles.map((places) => tag("triangle", ["v1", "v2", "v3"], places));
   const mesh = `<mesh><vertices>${vertices.join("")}</vertices><triangles>${facets.join("")}</triangles></mesh>`;
-  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1">${mesh}</object></resources><build><item objectid="1"/></build></model>`;
+  const model = `<?xml version="1.0"?><model unit="millimeter" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02"><resources><object id="1">${mesh}</object></resources><build>${items}</build></model>`;
   const types = `<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types"><Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/></Types>`;
   const start = `<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships"><Relationship Id="r" Target="/3D/model.model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/></Relationships>`;
-  return zipSync({ "[Content_Types].xml": strToU8(types), "_rels/.rels": strToU8(start), "3D/model.model": strToU8(model) });
+  return zipSync({ "[Content_Types].xml": strToU8(types), "_rels/.rels": strToU8(start), "3D/model.model": strToU8(model), ...others });
 }

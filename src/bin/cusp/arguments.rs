@@ -9,6 +9,7 @@ use cusp_slicer::job::{
     BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Slicer, Snap,
 };
 use cusp_slicer::model::ModelUnit;
+use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportProfile, SupportStrength, Supporting};
 use cusp_slicer::printer::PrinterChoice;
@@ -152,6 +153,31 @@ pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
     read_json(path)
 }
 
+/// Choices that a model file leaves to its reader.
+#[derive(Args)]
+#[command(next_help_heading = "Model")]
+pub struct ReadChoices {
+    /// The plate of a 3MF project that has several, from 1 [default: 1]
+    #[arg(long, value_name = "N")]
+    plate: Option<u32>,
+    /// Read objects that a 3MF calls surfaces as models, too
+    #[arg(long)]
+    surfaces: bool,
+    /// Close every hole by a curved cap, where the generalised winding number is one half, and not only wide bent ones
+    #[arg(long)]
+    curved_caps: bool,
+}
+
+impl ReadChoices {
+    pub fn options(&self) -> ReadOptions {
+        ReadOptions {
+            plate_number: self.plate,
+            surfaces: self.surfaces,
+            curved_caps: self.curved_caps,
+        }
+    }
+}
+
 /// The options of every command that plans.
 #[derive(Args)]
 pub struct Choices {
@@ -161,9 +187,8 @@ pub struct Choices {
     /// Settings by the names that reports have under `options`, as TOML; options on the command line go before them
     #[arg(long, value_name = "FILE.toml")]
     config: Option<PathBuf>,
-    /// The plate of a 3MF project that has several, from 1 [default: 1]
-    #[arg(long, value_name = "N", help_heading = "Model")]
-    plate: Option<u32>,
+    #[command(flatten)]
+    reading: ReadChoices,
     /// Rotate the model by a quaternion
     #[arg(long, value_name = "X,Y,Z,W", value_parser = rotation, allow_hyphen_values = true, help_heading = "Model")]
     rotation: Option<[f64; 4]>,
@@ -378,7 +403,7 @@ impl Choices {
             options,
             reading: Reading {
                 weights: weights.map(|path| WeightsFile::read(path)).transpose()?,
-                plate_number: self.plate,
+                options: self.reading.options(),
             },
         })
     }

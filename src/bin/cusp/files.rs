@@ -7,7 +7,7 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
 use cusp_slicer::job::Slicer;
-use cusp_slicer::model::read::{HEAD_BYTES, identify};
+use cusp_slicer::model::read::{HEAD_BYTES, ReadOptions, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
@@ -172,18 +172,17 @@ pub fn read(path: &Path) -> Result<Vec<u8>, Failure> {
     Ok(bytes.map_err(|error| in_file(path, &error))?)
 }
 
-/// Choices for reading a model: its plate, and weights to apply.
+/// Choices for reading a model, and weights to apply.
 #[derive(Default)]
 pub struct Reading {
     pub weights: Option<WeightsFile>,
-    /// The plate of a project, from 1; the first if absent.
-    pub plate_number: Option<u32>,
+    pub options: ReadOptions,
 }
 
 impl Reading {
     /// Reads a model and applies weights.
     pub fn load(&self, model: &Path) -> Result<Slicer, Failure> {
-        let mut slicer = load(model, self.plate_number)?;
+        let mut slicer = load(model, &self.options)?;
         if let Some(weights) = &self.weights {
             weights.paint(&mut slicer, model)?;
         }
@@ -191,8 +190,8 @@ impl Reading {
     }
 }
 
-/// Reads a model, or a plate of a project. A file that is none is refused by its first bytes.
-pub fn load(model: &Path, plate_number: Option<u32>) -> Result<Slicer, Failure> {
+/// Reads a model. A file that is none is refused by its first bytes.
+pub fn load(model: &Path, options: &ReadOptions) -> Result<Slicer, Failure> {
     if !is_standard(model) {
         let head = head_of(model).map_err(|error| in_file(model, &error))?;
         if let Some((head, length)) = head {
@@ -201,7 +200,7 @@ pub fn load(model: &Path, plate_number: Option<u32>) -> Result<Slicer, Failure> 
         }
     }
     let bytes = read(model)?;
-    Slicer::load_plate(&bytes, plate_number).map_err(|error| Failure::in_file(model, &error))
+    Slicer::load_with(&bytes, options).map_err(|error| Failure::in_file(model, &error))
 }
 
 /// The first bytes and the length of a regular file. A pipe can be opened only once.

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
+use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use serde::{Deserialize, Serialize};
 
@@ -58,6 +59,12 @@ pub struct JobModel {
     /// The plate of a project that has several, from 1; the first if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<u32>,
+    /// Whether objects that a 3MF calls surfaces are read, too.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub surfaces: bool,
+    /// Whether every hole is closed by a curved cap.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub curved_caps: bool,
 }
 
 fn one() -> usize {
@@ -86,6 +93,8 @@ impl JobModel {
             ranges: own.ranges.clone(),
             weights: None,
             plate: None,
+            surfaces: false,
+            curved_caps: false,
         }
     }
 
@@ -182,7 +191,11 @@ impl JobFile {
             let painted = model.weights.as_deref().map(within);
             let reading = Reading {
                 weights: painted.as_deref().map(WeightsFile::read).transpose()?,
-                plate_number: model.plate,
+                options: ReadOptions {
+                    plate_number: model.plate,
+                    surfaces: model.surfaces,
+                    curved_caps: model.curved_caps,
+                },
             };
             plate.add(reading.load(&path)?);
             weights.push(painted);

@@ -35,7 +35,7 @@ use std::sync::atomic::{AtomicBool, Ordering};
 
 use clap::{Parser, Subcommand};
 
-use arguments::{Slicing, Studying};
+use arguments::{ReadChoices, Slicing, Studying};
 use calibrate::Calibrating;
 use check::Checking;
 use contours::Contouring;
@@ -145,9 +145,8 @@ enum Command {
         /// Models: 3MF, OBJ or STL; - is standard input
         #[arg(required = true, value_name = "MODEL")]
         models: Vec<PathBuf>,
-        /// The plate of a 3MF project that has several, from 1 [default: 1]
-        #[arg(long, value_name = "N")]
-        plate: Option<u32>,
+        #[command(flatten)]
+        reading: ReadChoices,
         /// Print one JSON object; for several models one per model, each on its own line
         #[arg(long)]
         json: bool,
@@ -238,9 +237,9 @@ fn main() -> ExitCode {
         Command::Printers { json } => models::printers(json),
         Command::Info {
             models,
-            plate,
+            reading,
             json,
-        } => models::info(&models, plate, json),
+        } => models::info(&models, &reading.options(), json),
         Command::Completions { shell } => packaging::completions(shell),
         Command::Man { output } => packaging::man(output.as_deref()),
     };

@@ -5,6 +5,7 @@ use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::job::MeshInfo;
+use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
 use serde::Serialize;
@@ -15,7 +16,7 @@ use crate::terminal::{Bar, print, print_json};
 use crate::usage::check_json;
 use crate::watch::stop_on_interrupt;
 
-pub fn info(models: &[PathBuf], plate: Option<u32>, json: bool) -> Result<(), Failure> {
+pub fn info(models: &[PathBuf], options: &ReadOptions, json: bool) -> Result<(), Failure> {
     check_inputs("info", models);
     let [model] = models else {
         let batch = Batch {
@@ -24,9 +25,9 @@ pub fn info(models: &[PathBuf], plate: Option<u32>, json: bool) -> Result<(), Fa
             is_json: json,
             workers: workers(),
         };
-        return batch.run(|place, _| Ok(load(&models[place], plate)?.info()));
+        return batch.run(|place, _| Ok(load(&models[place], options)?.info()));
     };
-    let info = load(model, plate)?.info();
+    let info = load(model, options)?.info();
     if json {
         print_json(&info)?;
     } else {
@@ -64,7 +65,7 @@ pub struct Weighed {
 pub fn saliency(model: &Path, output: &Path, json: bool) -> Result<(), Failure> {
     check_json("saliency", Some(output), json);
     let output = Output::new(output, Some(model), "model")?;
-    let mut slicer = load(model, None)?;
+    let mut slicer = load(model, &ReadOptions::default())?;
     stop_on_interrupt();
     let facets = output.write(|mut writer| {
         let bar = Bar::new();

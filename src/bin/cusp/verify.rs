@@ -289,7 +289,7 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     let weights = verifying.weights.as_deref();
     let reading = Reading {
         weights: weights.map(WeightsFile::read).transpose()?,
-        plate_number: plate_of(&text),
+        options: Claim::read_options(&text),
     };
     let mut slicer = budget.bound(reading.load(model)?, 1);
     let claim =
@@ -338,11 +338,4 @@ pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
         verdict,
         verified.price.as_ref(),
     )
-}
-
-/// The plate of a project that a plan was made for, as far as it says so. Whether it did is found out with the rest of it.
-fn plate_of(plan: &str) -> Option<u32> {
-    let plan: serde_json::Value = serde_json::from_str(plan).ok()?;
-    let number = plan["model"]["plate"]["plate_number"].as_u64()?;
-    u32::try_from(number).ok()
 }

@@ -32,7 +32,7 @@ pub struct Contents {
     pub negative: Triangles,
     /// The unit that the file states, from which the triangles were converted.
     pub unit: Option<ModelUnit>,
-    /// Objects that are not printed: supports of other programs, surfaces, and what a user turned off.
+    /// Objects that are not printed: supports of other programs, surfaces unless they were asked for, and what a user turned off.
     pub skipped_objects: usize,
     /// Parts that slicers do not print as solids, each once.
     pub parts: Vec<Part>,
@@ -78,6 +78,20 @@ pub struct PlateChoice {
     pub plates: u32,
 }
 
+/// Choices that a file leaves to its reader.
+#[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(default, deny_unknown_fields)]
+pub struct ReadOptions {
+    /// Plate of a 3MF project that has several, from 1; the first if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub plate_number: Option<u32>,
+    /// Reads objects that a 3MF calls surfaces as models. Without it they are not printed.
+    pub surfaces: bool,
+    /// Closes every hole where the generalised winding number is one half, and not only wide ones that are bent.
+    pub curved_caps: bool,
+}
+
 impl Contents {
     /// Those of a file that states no unit.
     fn without_unit(triangles: Triangles) -> Self {
@@ -97,21 +111,21 @@ impl Contents {
 /// # Errors
 /// [`ReadError`], with the byte offset, or the line and the part, where reading failed.
 pub fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
-    read_plate(bytes, None)
+    read_with(bytes, &ReadOptions::default())
 }
 
-/// The same of one plate of a project, from 1; the first if none is given. Files without plates have one.
+/// The same with choices. Files without plates have one.
 ///
 /// # Errors
 /// [`ReadError`]; [`ReadError::NoPlate`] if there is no such plate.
-pub fn read_plate(bytes: &[u8], plate_number: Option<u32>) -> Result<Contents, ReadError> {
+pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Contents, ReadError> {
     let contents = match identify(head_of(bytes), bytes.len() as u64)? {
         ModelFormat::Stl => Contents::without_unit(stl::read(bytes)?),
-        ModelFormat::ThreeMf => threemf::read(bytes, plate_number)?,
+        ModelFormat::ThreeMf => threemf::read(bytes, options)?,
         ModelFormat::Obj => obj::read(bytes)?,
     };
     let plates = contents.plate.map_or(1, |plate| plate.plates);
-    match plate_number {
+    match options.plate_number {
         Some(plate_number) if !(1..=plates).contains(&plate_number) => Err(ReadError::NoPlate {
             plate_number,
             plates,

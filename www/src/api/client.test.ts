@@ -1,6 +1,6 @@
 import { beforeEach, expect, test } from "vitest";
 import type { Watch, WorkerHandle } from "./calls.js";
-import { Client, type About } from "./client.js";
+import { Client, type About, type ModelFile } from "./client.js";
 import { SlicerError } from "./error.js";
 import { fakePlate } from "./fake-plate.js";
 import type { CuspError, Preview, Price, MeshInfo, OnProgress, Opened, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
@@ -106,7 +106,8 @@ class Caller {
     this.client = new Client(spawn);
   }
 
-  open(file: Blob, watch: Watch): Promise<Opened> {
+  open(blob: Blob, watch: Watch): Promise<Opened> {
+    const file = { blob, reading: {} };
     const opened = this.client.open(Promise.resolve(file), watch);
     const before = this.about;
     this.about = opened.then(
@@ -324,13 +325,13 @@ test("a call made too early says what is missing; calls after dispose() reject",
 
 test("calls run in the order they are made: a file still being fetched holds up later calls", async () => {
   await caller.open(new Blob(["a"]), watch());
-  let arrive: (file: Blob) => void = () => undefined;
-  const file = new Promise<Blob>((resolve) => (arrive = resolve));
+  let arrive: (file: ModelFile) => void = () => undefined;
+  const file = new Promise<ModelFile>((resolve) => (arrive = resolve));
   const opened = caller.client.open(file, watch());
   const about = opened.then(async ({ info: { search_bytes } }) => ({ name: "", file: await file, search_bytes, weights: null }));
   const planned = caller.client.plan(about, { tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve));
-  arrive(new Blob(["b"]));
+  arrive({ blob: new Blob(["b"]), reading: {} });
   await planned;
   expect(log.slice(2)).toEqual(["1: open b", "1: plan 1 of b"]);
 });

@@ -9,14 +9,20 @@ import { Calls, silent, spawnWorker, type Compiled, type Life, type Remote, type
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { told, untold } from "./told.js";
-import type { Comparison, Format, Help, KnownPrinter, Limits, OnProgress, Opened, Options, Price, Prices, Printability, Profiled, Report, Tradeoff, Written } from "./wire.js";
+import type { Comparison, Format, Help, KnownPrinter, Limits, OnProgress, Opened, Options, Price, Prices, Printability, Profiled, ReadOptions, Report, Tradeoff, Written } from "./wire.js";
 
-/** What a worker holds: a file, the weights of its facets, and a plan. */
+/** What a worker holds: a file as it was read, the weights of its facets, and a plan. */
 interface Held {
-  file: Blob | null;
+  file: ModelFile | null;
   weights: Weights;
   /** The plan that the core holds; null if there is none or it is unknown. */
   planned: Planned | null;
+}
+
+/** A file and the choices for reading it. One that is read again is another object. */
+export interface ModelFile {
+  readonly blob: Blob;
+  readonly reading: ReadOptions;
 }
 
 /** How much each facet matters, 0 to 1; null: all equally. */
@@ -25,7 +31,7 @@ export type Weights = Float32Array | null;
 /** What a call is about: a model and the weights of its facets. */
 export interface Subject {
   readonly name: string;
-  readonly file: Blob;
+  readonly file: ModelFile;
   /** Memory in bytes that a search takes in each worker besides the file, as the core reports it. */
   readonly search_bytes: number;
   readonly weights: Weights;
@@ -63,9 +69,9 @@ export class Client {
   }
 
   /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */
-  open(file: Promise<Blob>, watch: Watch, wantsPositions = false): Promise<Opened> {
+  open(file: Promise<ModelFile>, watch: Watch, wantsPositions = false): Promise<Opened> {
     return this.#calls.run(watch, file, async (life, file, progress) => {
-      const opened = await life.handle.remote.open(file, progress, wantsPositions);
+      const opened = await life.handle.remote.open(file.blob, file.reading, progress, wantsPositions);
       life.held.file = file;
       life.held.weights = null;
       life.held.planned = this.#planned = null;
@@ -186,7 +192,7 @@ export class Client {
   async #bring(life: Life<Held>, { file, weights }: Subject): Promise<void> {
     const { remote } = life.handle;
     if (life.held.file !== file) {
-      await remote.open(file, silent);
+      await remote.open(file.blob, file.reading, silent);
       life.held.file = file;
       life.held.weights = null;
       life.held.planned = null;

@@ -13,7 +13,7 @@ test("the defaults that forms show match the core's", async () => {
   const { tolerance, arranging, nozzle_mm: usual_mm, ...shown } = DEFAULTS;
   expect(defaults()).toMatchObject(shown);
   expect(default_arranging()).toEqual(arranging);
-  const slicer = new Slicer(binaryStl(exampleTriangles()));
+  const slicer = new Slicer(binaryStl(exampleTriangles()), {});
   // The default for volume depends on the model.
   for (const metric of ["cusp", "deviation", "thread", "roughness", "area"] as const) {
     const report = await slicer.plan({ metric, rays: 64, backend: "cpu" }, () => undefined);
@@ -33,7 +33,7 @@ test("the defaults that forms show match the core's", async () => {
 });
 
 test("the diameters of contacts and drain holes that forms show match the core's", async () => {
-  const slicer = new Slicer(binaryStl(exampleTriangles()));
+  const slicer = new Slicer(binaryStl(exampleTriangles()), {});
   const plan = (options: Options): Promise<Report> => slicer.plan({ rays: 64, backend: "cpu", ...options }, () => undefined);
   for (const strength of ["light", "medium", "heavy"] as const) {
     const { supported } = await plan({ supports: { strength } });

@@ -24,7 +24,7 @@ function faked(): { slicer: Slicer; log: string[] } {
       ...fakePlate(async (what) => say(what)),
       boot: async () => ({}),
       rehearse: async () => say("rehearse"),
-      open: async (file, _progress, wantsPositions) => {
+      open: async (file, _reading, _progress, wantsPositions) => {
         say(`open ${await file.text()}`);
         const info = { facets: 1, search_bytes: 200 } as MeshInfo;
         return wantsPositions === true ? { info, positions: new Float32Array(9) } : { info };

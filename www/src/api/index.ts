@@ -24,7 +24,7 @@ import { Pool } from "./pool.js";
 import type { Ordered } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
+import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -41,6 +41,8 @@ export interface Model extends Versioned {
   name: string;
   /** The file that it was read from, for a page that sends a model along with its plan. */
   file: Blob;
+  /** The choices with which it was read. */
+  reading: ReadOptions;
   info: MeshInfo;
 }
 
@@ -74,6 +76,8 @@ export interface Loaded extends Model {
 export interface LoadCall extends Watch {
   /** The model's name; that of the source if absent. */
   name?: string;
+  /** Choices that the file leaves: a plate of a 3MF project, surfaces as models, curved caps. */
+  reading?: ReadOptions;
   /** Whether the answer has {@link Loaded.positions}: sooner than by a call of `positions()`. */
   positions?: boolean;
 }
@@ -202,13 +206,14 @@ export function createSlicer(setup: Setup = {}): Slicer {
   return {
     plate,
     add: (source, own, call) => plate.add(source, own, call),
-    async load(source, { name, positions, ...call } = {}) {
+    async load(source, { name, positions, reading = {}, ...call } = {}) {
       const before = about;
       const named = resolve(source, call.signal);
-      const opened = main.open(named.then(({ file }) => file), call, positions);
-      const loaded = Promise.all([named, opened]).then(([it, opened]) => ({ ...it, name: name ?? it.name, ...opened }));
-      about = loaded.then(
-        ({ name, file, info }) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
+      const file = named.then(({ file: blob }) => ({ blob, reading }));
+      const opened = main.open(file, call, positions);
+      const loaded = Promise.all([named, opened]).then(([it, opened]) => ({ ...it, name: name ?? it.name, reading, ...opened }));
+      about = Promise.all([file, loaded]).then(
+        ([file, { name, info }]) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
         () => before,
       );
       return { schema: SCHEMA, ...(await loaded) };

@@ -316,7 +316,7 @@ test("idle workers are terminated after a while, and on request", async () => {
 });
 
 test("a large model gets fewer workers, but at least one", () => {
-  const of = (search_bytes: number, most = 64): number => workersFor({ file: new Blob([]), search_bytes }, most);
+  const of = (search_bytes: number, most = 64): number => workersFor({ file: { blob: new Blob([]), reading: {} }, search_bytes }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);
   expect(of(250e6)).toBe(2);

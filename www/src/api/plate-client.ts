@@ -5,16 +5,17 @@
  * and options, and replayed when a fresh worker is asked for its masks.
  */
 import { Calls, silent, spawnWorker, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
-import type { Weights } from "./client.js";
+import type { ModelFile, Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
-import type { ArrangeError, MeshInfo, OnProgress, Placement, PlateOptions, PlatesReport, Price, Prices, ProfiledPlates } from "./wire.js";
+import type { ArrangeError, MeshInfo, OnProgress, Placement, PlateOptions, PlatesReport, Price, Prices, ProfiledPlates, ReadOptions } from "./wire.js";
 
 /** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
 export interface Loaded {
   readonly id: number;
   readonly name: string;
   readonly file: Blob;
+  readonly reading: ReadOptions;
   readonly weights: Weights;
 }
 
@@ -44,10 +45,10 @@ export class PlateClient {
   }
 
   /** Adds a model to others once its file has arrived. On failure or abort, those stay. */
-  add(models: Models, id: number, file: Promise<Blob>, watch: Watch): Promise<MeshInfo> {
+  add(models: Models, id: number, file: Promise<ModelFile>, watch: Watch): Promise<MeshInfo> {
     return this.#calls.run(watch, Promise.all([models, file]), async (life, [models, file], progress) => {
       await this.#bring(life, models);
-      const info = await life.handle.remote.addToPlate(file, progress);
+      const info = await life.handle.remote.addToPlate(file.blob, file.reading, progress);
       life.held.models.push({ id, weights: null });
       life.held.planned = null;
       return info;
@@ -130,9 +131,9 @@ export class PlateClient {
         held.models.splice(place, 1);
       }
     }
-    for (const { id, file } of models.slice(held.models.length)) {
+    for (const { id, file, reading } of models.slice(held.models.length)) {
       held.planned = null;
-      await remote.addToPlate(file, silent);
+      await remote.addToPlate(file, reading, silent);
       held.models.push({ id, weights: null });
     }
     for (const [place, { weights }] of models.entries()) {

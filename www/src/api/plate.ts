@@ -18,7 +18,7 @@ import { PlateClient, type Loaded } from "./plate-client.js";
 import type { OrderedPlates } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { ArrangeError, Arranging, MeshInfo, ModelOptions, Options, Placement, PlateOptions, Price, Prices, Profiled, Report } from "./wire.js";
+import type { ArrangeError, Arranging, MeshInfo, ModelOptions, Options, Placement, PlateOptions, Price, Prices, Profiled, ReadOptions, Report } from "./wire.js";
 
 /** A model of a plate. */
 export interface PlateModel extends Versioned {
@@ -26,6 +26,8 @@ export interface PlateModel extends Versioned {
   id: number;
   name: string;
   file: Blob;
+  /** The choices with which it was read. */
+  reading: ReadOptions;
   info: MeshInfo;
   /** How it differs from the options of the job, and its number of copies. */
   own: ModelOptions;
@@ -37,6 +39,8 @@ export type ModelChange = { [Name in keyof ModelOptions]?: ModelOptions[Name] | 
 export interface AddCall extends Watch {
   /** The model's name; that of the source if absent. */
   name?: string;
+  /** Choices that the file leaves: a plate of a 3MF project, surfaces as models, curved caps. */
+  reading?: ReadOptions;
 }
 
 /** How copies are arranged, or where they stand. */
@@ -130,13 +134,13 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
   };
 
   return {
-    async add(source, own = {}, { name, ...call } = {}) {
+    async add(source, own = {}, { name, reading = {}, ...call } = {}) {
       const id = ++added;
       const before = models;
       const named = resolve(source, call.signal);
-      const read = client.add(before, id, named.then(({ file }) => file), call);
+      const read = client.add(before, id, named.then(({ file: blob }) => ({ blob, reading })), call);
       const entry = Promise.all([named, read]).then(
-        ([it, info]): Entry => ({ schema: SCHEMA, id, name: name ?? it.name, file: it.file, info, own: merged({}, own), weights: null }),
+        ([it, info]): Entry => ({ schema: SCHEMA, id, name: name ?? it.name, file: it.file, reading, info, own: merged({}, own), weights: null }),
       );
       models = Promise.all([before, entry]).then(
         ([all, entry]) => [...all, entry],
@@ -193,8 +197,8 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
 }
 
 /** What a page sees of a model: the weights are the plate's. */
-function seen({ schema, id, name, file, info, own }: Entry): PlateModel {
-  return { schema, id, name, file, info, own };
+function seen({ schema, id, name, file, reading, info, own }: Entry): PlateModel {
+  return { schema, id, name, file, reading, info, own };
 }
 
 /** The options of a model with some of them changed. */

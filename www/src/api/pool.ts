@@ -15,7 +15,7 @@ type Signal = Pick<Watch, "signal">;
 
 /** The number of workers for a model: up to `most`, fewer for a large model, at least one. */
 export function workersFor({ file, search_bytes }: Pick<Subject, "file" | "search_bytes">, most: number): number {
-  const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.size));
+  const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.blob.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 

@@ -4,7 +4,7 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
 export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task };
@@ -29,6 +29,7 @@ export type {
   Peel,
   Planner,
   PartKind,
+  PlateChoice,
   PlannerReport,
   BestUniform,
   PlateModelReport,
@@ -37,6 +38,7 @@ export type {
   PriceLine,
   Quantity,
   QuantityBreak,
+  ReadOptions,
   Resin,
   Severities,
   Severity,
@@ -135,7 +137,7 @@ export interface SlicerWorker extends PlateWorker {
   /** Plans a small ring and forgets it: what a browser has not compiled yet, it compiles now. */
   rehearse(): Promise<void>;
   /** Reads a model; `wantsPositions`: with the corners of its facets. If this fails, the previous one stays open. */
-  open(file: Blob, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
+  open(file: Blob, reading: ReadOptions, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
   plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
   tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
   compare(options: Options, progress: OnProgress): Promise<Comparison>;
@@ -183,7 +185,7 @@ export type Remote = {
 /** What a worker does for a plate. Models are counted from 0 in their order, and so are plates. */
 export interface PlateWorker {
   /** Reads a model and adds it after the others. */
-  addToPlate(file: Blob, progress: OnProgress): Promise<MeshInfo>;
+  addToPlate(file: Blob, reading: ReadOptions, progress: OnProgress): Promise<MeshInfo>;
   removeFromPlate(model: number): void;
   platePositions(model: number): Float32Array;
   setPlateWeights(model: number, weights: Float32Array | null): void;

@@ -8,7 +8,7 @@ import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./told.js";
 import { endUpperHalves } from "./vectors.js";
-import type { Help, KnownPrinter, OnProgress, PackedCandidates, PlateWorker, Remote, SearchStep } from "./wire.js";
+import type { Help, KnownPrinter, OnProgress, PackedCandidates, PlateWorker, ReadOptions, Remote, SearchStep } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -71,9 +71,9 @@ class BlobSink {
 const onPlate = (): Plate => (plate ??= new Plate());
 
 /** Reads a model; a file that is none is rejected before all of it is read. */
-async function read(file: Blob): Promise<Slicer> {
+async function read(file: Blob, reading: ReadOptions): Promise<Slicer> {
   identify(await bytesOf(file.slice(0, head_bytes())), file.size);
-  return new Slicer(await bytesOf(file));
+  return new Slicer(await bytesOf(file), reading);
 }
 
 /** Hands out the layers of the print file once helpers have encoded them, and forgets each; null if it is written sooner without. */
@@ -94,9 +94,9 @@ async function encodedBy(helpers: number, help: Help, progress: OnProgress): Pro
 }
 
 const plateApi: Pick<Remote, keyof PlateWorker> = {
-  async addToPlate(file, progress) {
+  async addToPlate(file, reading, progress) {
     progress("load", 0, 0);
-    const model = await read(file);
+    const model = await read(file, reading);
     const info = model.info();
     onPlate().add(model);
     return info;
@@ -139,14 +139,14 @@ const api: Remote = {
     return compiled;
   },
   async rehearse() {
-    const model = new Slicer(stlOf(ring(REHEARSED)));
+    const model = new Slicer(stlOf(ring(REHEARSED)), {});
     await model.plan({ rays: REHEARSED_RAYS, backend: "cpu" }, () => undefined);
     model.mask(0);
     model.free();
   },
-  async open(file, progress, wantsPositions) {
+  async open(file, reading, progress, wantsPositions) {
     progress("load", 0, 0);
-    const opened = await read(file);
+    const opened = await read(file, reading);
     slicer?.free();
     slicer = opened;
     const info = opened.info();

@@ -5,7 +5,7 @@ import { binaryStl, exampleTriangles } from "./example.js";
 
 test("the example shows what adaptive layers are for: by default it saves half of the thin ones, where thick ones step too high", async () => {
   initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
-  const slicer = new Slicer(binaryStl(exampleTriangles()));
+  const slicer = new Slicer(binaryStl(exampleTriangles()), {});
   const { layers, max_error, tolerance, thickness_mm, uniform } = await slicer.plan({ rays: 64, backend: "cpu" }, () => undefined);
   expect(max_error).toBeLessThanOrEqual(tolerance);
   expect(layers).toBeLessThan(uniform.finest.layers / 2);

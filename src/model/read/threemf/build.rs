@@ -28,6 +28,8 @@ pub struct Build<'a> {
     /// Facets and components that were placed.
     placed: usize,
     settings: &'a Settings,
+    /// Whether surfaces are placed, too.
+    surfaces: bool,
     pub triangles: Triangles,
     /// The facets of parts that are subtracted.
     pub negative: Triangles,
@@ -44,6 +46,7 @@ impl<'a> Build<'a> {
         start: &str,
         settings: &'a Settings,
         plate: Option<PlateChoice>,
+        surfaces: bool,
     ) -> Result<(Self, Rc<Model>), ThreeMfError> {
         let mut build = Self {
             package,
@@ -51,6 +54,7 @@ impl<'a> Build<'a> {
             stored: 0,
             placed: 0,
             settings,
+            surfaces,
             triangles: Triangles::new(),
             negative: Triangles::new(),
             skipped: 0,
@@ -113,7 +117,7 @@ impl<'a> Build<'a> {
                 object: id,
             });
         };
-        if !object.is_solid {
+        if !(object.is_solid || self.surfaces && object.is_surface) {
             self.skipped += 1;
             return Ok(());
         }

@@ -14,7 +14,7 @@ mod values;
 mod xml;
 
 use super::kind::FileKind;
-use super::{Contents, PlateChoice, ReadError, head_of};
+use super::{Contents, PlateChoice, ReadError, ReadOptions, head_of};
 use build::Build;
 use package::Package;
 use settings::Settings;
@@ -31,7 +31,7 @@ const USUAL_MODEL: &str = "3D/3dmodel.model";
 ///
 /// # Errors
 /// [`ThreeMfError`], with the part and the line where reading failed; [`ReadError::OtherKind`] for other zips.
-pub(super) fn read(bytes: &[u8], plate_number: Option<u32>) -> Result<Contents, ReadError> {
+pub(super) fn read(bytes: &[u8], options: &ReadOptions) -> Result<Contents, ReadError> {
     let package = Package::new(bytes).map_err(|error| match FileKind::of_zip(head_of(bytes)) {
         None => ReadError::from(error),
         Some(kind) => ReadError::OtherKind { kind },
@@ -51,10 +51,10 @@ pub(super) fn read(bytes: &[u8], plate_number: Option<u32>) -> Result<Contents, 
     let settings = Settings::of(&package)?;
     let plates = settings.plates.len() as u32;
     let plate = (plates > 1).then(|| PlateChoice {
-        plate_number: plate_number.unwrap_or(1).clamp(1, plates),
+        plate_number: options.plate_number.unwrap_or(1).clamp(1, plates),
         plates,
     });
-    let (build, root) = Build::of(&package, &start, &settings, plate)?;
+    let (build, root) = Build::of(&package, &start, &settings, plate, options.surfaces)?;
     if build.triangles.is_empty() {
         let skipped = build.skipped;
         return Err(ThreeMfError::NoFacets { skipped }.into());

@@ -29,6 +29,8 @@ pub struct Model {
 pub struct Object {
     /// Whether it is printed as a solid: a model or a solid support.
     pub is_solid: bool,
+    /// Whether it is a surface, which need not enclose anything.
+    pub is_surface: bool,
     pub vertices: Vec<Vec3>,
     pub facets: Vec<[u32; 3]>,
     pub components: Vec<Reference>,
@@ -277,6 +279,7 @@ impl Reader {
                 (b"", b"id") => id = Some(number::<u32>("id", value)?),
                 (b"", b"type") => {
                     self.object.is_solid = matches!(value, b"model" | b"solidsupport" | b"");
+                    self.object.is_surface = value == b"surface";
                 }
                 (_, b"meshresolution") if value == b"lowres" => {
                     self.object.feature = Some(ThreeMfFeature::Slices);

@@ -1,6 +1,6 @@
 /** The card of the open model. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import type { Warning } from "../../api/wire.js";
+import type { PlateChoice, Warning } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
@@ -41,12 +41,30 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
   const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
   const all = asked([...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])]);
   return advise(all, language, fixed).map(
-    ({ text, offers, towers }) => html`<div class="warning">
+    ({ text, offers, towers, plates }) => html`<div class="warning">
       <p>${text}</p>
+      ${plates === null ? nothing : plateList(session, plates, text, language)}
       ${offerButtons(offers, (change) => session.change(change))}
       ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
     </div>`,
   );
+}
+
+/** A list of the plates of a project, of which another can be read. */
+function plateList(session: Session, { plate_number, plates }: PlateChoice, label: string, { texts, format }: Language): TemplateResult {
+  const numbers = Array.from({ length: plates }, (_, index) => index + 1);
+  const chosen = ({ target }: Event): void => {
+    const list = target as HTMLSelectElement;
+    const number = Number(list.value);
+    // Until that plate is read, this one is open.
+    list.value = String(plate_number);
+    void session.reread({ ...session.model?.reading, plate_number: number });
+  };
+  return html`<select aria-label=${label} @change=${chosen}>
+    ${numbers.map(
+      (number) => html`<option value=${number} .selected=${number === plate_number}>${texts.plate.plate(format.count(number), format.count(plates))}</option>`,
+    )}
+  </select>`;
 }
 
 /** A button for uniform layers, where they do about as well as the plan. */

@@ -1,6 +1,6 @@
 /** Warnings in words, and what may help. */
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
-import type { ModelUnit, UniformLayers, Warning } from "../../api/wire.js";
+import type { ModelUnit, PlateChoice, UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
 import { FORMATS } from "./printer.js";
 import type { Settings } from "./settings.js";
@@ -28,6 +28,8 @@ export interface Advice {
   offers: Offer[];
   /** Whether test towers would tell if the printer takes several thicknesses. */
   towers: boolean;
+  /** The plates of the project that the model was read from; null for other warnings. */
+  plates: PlateChoice | null;
 }
 
 /**
@@ -44,7 +46,8 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
     const best = warning.code === "one-thickness" ? warning.detail.best : null;
     const units = warning.code === "odd-size" ? warning.detail.readings : [];
     const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
-    advice.set(text, { text, offers, towers: isOfPrinter(warning) && !fixed.has("printer") });
+    const plates = warning.code === "other-plates" ? warning.detail : null;
+    advice.set(text, { text, offers, plates, towers: isOfPrinter(warning) && !fixed.has("printer") });
   }
   return [...advice.values()];
 }

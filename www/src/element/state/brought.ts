@@ -32,7 +32,7 @@ export class Brought {
     for (const entry of entries) {
       const { key, model, copies, own, weights } = entry;
       if (!this.#there.has(key)) {
-        const { id } = await plate.add(model.file, {}, { ...watch, name: model.name });
+        const { id } = await plate.add(model.file, {}, { ...watch, name: model.name, reading: model.reading });
         this.note(entry, id);
       }
       const there = this.#there.get(key) as There;

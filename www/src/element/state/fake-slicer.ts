@@ -5,7 +5,7 @@ import { SCHEMA, type Check, type PreviewedPlan, type LoadCall, type Mask, type 
 import type { Candidate, Preview, MeshInfo, Options, Price, Prices, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
-export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), info };
+export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), reading: {}, info };
 
 export function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
@@ -22,7 +22,11 @@ export class FakeSlicer {
   readonly plate = absentSlicer().plate;
   readonly warm = (): void => undefined;
   readonly printers = async (): Promise<[]> => [];
-  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => this.#call("open", call);
+  readonly loads: LoadCall[] = [];
+  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => {
+    this.loads.push(call);
+    return this.#call("open", call);
+  };
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
   readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
   readonly calibrateLayers = (options: Options = {}, call: Watch = {}): Promise<TestTowers> => this.#call("calibrateLayers", call, options);

@@ -2,7 +2,7 @@
 import { asSlicerError, isAbort } from "../../api/error.js";
 import type { Model, Plan, Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
-import type { Options } from "../../api/wire.js";
+import type { Options, ReadOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import { choose, weightsName } from "./choice.js";
 import type { Download, Host, SlicerCalls } from "./host.js";
@@ -186,10 +186,21 @@ export abstract class Models extends Preferences {
     this.changed();
   }
 
-  async #open(source: Source, name?: string, waits = false): Promise<Model | null> {
+  /** Reads the selected model again with other choices, as another plate of its project; null if that failed or was cancelled. */
+  async reread(reading: ReadOptions): Promise<Model | null> {
+    const { model } = this;
+    return model === null ? null : this.#open(model.file, model.name, false, reading);
+  }
+
+  /** @param reading that of the selected model, in whose place it is read again */
+  async #open(source: Source, name?: string, waits = false, reading?: ReadOptions): Promise<Model | null> {
     this.drop();
     this.dismiss();
-    const call = { ...(name !== undefined && { name }), ...(this.host.hasView?.() === true && { positions: true }) };
+    const call = {
+      ...(name !== undefined && { name }),
+      ...(this.host.hasView?.() === true && { positions: true }),
+      ...(reading !== undefined && { reading }),
+    };
     const loaded = await this.run("open", name ?? nameOf(source), null, (watch) => this.slicer.load(source, { ...watch, ...call }));
     if (loaded === null) {
       await this.resume();
@@ -203,7 +214,8 @@ export abstract class Models extends Preferences {
     this.weights = null;
     this.positions = positions;
     this.left(true);
-    this.plate.open(model);
+    if (reading === undefined) this.plate.open(model);
+    else this.plate.reread(model);
     this.forgetModels();
     this.host.loaded?.(model);
     if (!waits) this.replan();
@@ -221,10 +233,10 @@ export abstract class Models extends Preferences {
     this.weights = weights;
     this.positions = null;
     this.changed();
-    const read = await this.run("open", model.name, null, (watch) => this.slicer.load(model.file, { ...watch, name: model.name }));
+    const read = await this.run("open", model.name, null, (watch) => this.slicer.load(model.file, { ...watch, name: model.name, reading: model.reading }));
     if (this.#selecting !== entry) return;
     // Previews are of the selected model, also where somebody did not wait for it.
-    if (read === null) this.slicer.load(model.file, { name: model.name }).catch(() => undefined);
+    if (read === null) this.slicer.load(model.file, { name: model.name, reading: model.reading }).catch(() => undefined);
     if (weights !== null) this.slicer.setWeights(weights).catch(() => undefined);
     this.host.settingsChanged?.(this.settings);
     this.replate();

@@ -42,7 +42,7 @@ test.each([
   ["cusp in motor steps", "metric=cusp&tolerance=0.04&step=0.0025"],
   ["area in the least time", "metric=area&tolerance=7&minimize=time"],
 ])("where no plan holds, by %s, either offer leads to one that does", async (_, query) => {
-  const slicer = new Slicer(binaryStl(ball(HEIGHT_MM / 2, 96)));
+  const slicer = new Slicer(binaryStl(ball(HEIGHT_MM / 2, 96)), {});
   const settings = fromAddress(query);
   const error = await planned(slicer, settings);
   if (!("code" in error)) throw new Error("there is a plan");

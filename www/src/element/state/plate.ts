@@ -170,6 +170,13 @@ export class Plate {
     this.#forget();
   }
 
+  /** Takes the selected model as it was read again; its copies stay. */
+  reread(model: Model): void {
+    const { copies = 1 } = this.entries[this.selected] ?? {};
+    this.#take(this.entries.map((entry, place) => (place === this.selected ? this.#entryOf(model, { copies }) : entry)));
+    this.#forget();
+  }
+
   /** Reads models and adds them after the others: all, or on a failure none. Returns the new ones. */
   async add(added: readonly Added[], watch: Watch): Promise<readonly Entry[]> {
     const entries: Entry[] = [];
@@ -177,7 +184,7 @@ export class Plate {
       await this.#brought.bring(this.entries, watch);
       for (const { source, own, name } of added) {
         const { id, ...read } = await this.#slicer.plate.add(source, {}, name === undefined ? watch : { ...watch, name });
-        const entry = this.#entryOf({ schema: SCHEMA, name: read.name, file: read.file, info: read.info }, own);
+        const entry = this.#entryOf({ schema: SCHEMA, name: read.name, file: read.file, reading: read.reading, info: read.info }, own);
         this.#brought.note(entry, id);
         entries.push(entry);
       }

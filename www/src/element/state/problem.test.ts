@@ -200,12 +200,12 @@ test("a warning is said once, and offers what keeps the tolerance in layers of o
   const text =
     "Anycubic Photon M3 takes one thickness for all layers, and this plan has several; 882 uniform layers of 0.068\u00a0mm keep the tolerance.";
   expect(warn([one, { code: "inside-out" }, one])).toEqual([
-    { text, offers: [BEST_OFFER], towers: true },
-    { text: "The mesh was inside out, and was turned over.", offers: [], towers: false },
+    { text, offers: [BEST_OFFER], towers: true, plates: null },
+    { text: "The mesh was inside out, and was turned over.", offers: [], towers: false, plates: null },
   ]);
-  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [], towers: true }]);
+  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [], towers: true, plates: null }]);
   expect(warn([{ code: "one-thickness", detail: { taker: "sl1", best: null } }])).toEqual([
-    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [], towers: false },
+    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [], towers: false, plates: null },
   ]);
 });
 
@@ -239,10 +239,15 @@ test("a format that cannot hold test towers offers no other settings for them", 
   expect(problem).toMatchObject({ title: "This print file takes uniform layers only", field: "format", offers: [] });
 });
 
+test("of a project with several plates another can be chosen", () => {
+  const detail = { plate_number: 2, plates: 3 };
+  expect(advise([{ code: "other-plates", detail }], languageOf("en"), new Set())).toEqual([{ text: "Plate 2 of 3 is read.", offers: [], towers: false, plates: detail }]);
+});
+
 test("whether a printer that the page has fixed was ever tried is not the customer's business", () => {
   const untried: Warning = { code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } };
   expect(advise([untried], languageOf("en"), new Set())).toEqual([
-    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the test towers, or/), offers: [], towers: true },
+    { text: expect.stringMatching(/^Nobody has told whether the Elegoo Saturn 3 .*print the test towers, or/), offers: [], towers: true, plates: null },
   ]);
   expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });

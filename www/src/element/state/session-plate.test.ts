@@ -51,6 +51,29 @@ async function read(): Promise<void> {
   await settle();
 }
 
+test("another plate of a project is read in the place of the selected model, whose copies stay", async () => {
+  await planned(10);
+  plates();
+  await session.add([ring]);
+  session.plate.setCopies(0, 3);
+  await settle();
+  const reading = { plate_number: 2 };
+  const reread = session.reread(reading);
+  expect(slicer.loads.at(-1)?.reading).toBe(reading);
+  slicer.last.resolve({ ...model, name: "second", reading });
+  await reread;
+  await settle();
+  expect(names()).toEqual(["second", "ring.stl"]);
+  expect(session.plate.entries.map(({ copies }) => copies)).toEqual([3, 1]);
+  expect(session.model?.reading).toBe(reading);
+  expect(session.result?.report.layers).toBe(33);
+  // A plate that cannot be read leaves the model.
+  const failing = session.reread({ plate_number: 3 });
+  slicer.last.reject(new SlicerError("file-unreadable", "nothing"));
+  expect(await failing).toBeNull();
+  expect(names()).toEqual(["second", "ring.stl"]);
+});
+
 const names = (): string[] => session.plate.entries.map(({ model }) => model.name);
 
 test("each model keeps its pose, and undo goes back to the model whose pose it changes", async () => {
