@@ -6,6 +6,7 @@ mod common;
 mod filament;
 mod gpu;
 mod models;
+mod openings;
 #[path = "../common/peer.rs"]
 mod peer;
 mod print_files;
@@ -95,6 +96,7 @@ fn main() {
         filament::trials(),
         gpu::trials(),
         models::trials(),
+        openings::trials(),
         print_files::trials(),
         printability::trials(),
         sections::trials(),
