@@ -52,6 +52,7 @@
 
 mod crc;
 mod disjoint;
+pub mod misnamed;
 mod order;
 mod parallel;
 pub mod progress;

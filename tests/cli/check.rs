@@ -75,7 +75,10 @@ fn limits_that_cannot_be_used_are_named() {
             r#"{ "wall_mm": 900 }"#,
             "wall_mm is 900, but must be from 0 to 20",
         ),
-        (r#"{ "walls_mm": 1 }"#, "unknown field"),
+        (
+            r#"{ "walls_mm": 1 }"#,
+            "unknown field `walls_mm`: did you mean `wall_mm`?",
+        ),
         (r#"{ "severity": { "trap": "ok" } }"#, "unknown variant"),
     ] {
         let limits = model(&folder, "limits.json", text.as_bytes());

@@ -122,11 +122,15 @@ fn what_is_wrong_in_the_file_is_named_with_its_line() {
         (
             "layer_min_mm = 0.05\n\nlayer_maximum = 0.1\n",
             3,
-            "there is first_layer_mm, layer_max_mm, layer_min_mm",
+            "did you mean `layer_max_mm`?",
         ),
-        ("qq = 1\n", 1, "the settings are antialias"),
+        (
+            "qq = 1\n",
+            1,
+            "unknown field `qq`, expected one of `rotation`, `height_mm`",
+        ),
         ("# here\nlayer_min_mm = \"thin\"\n", 2, "expected f64"),
-        ("metric = \"beauty\"", 1, "unknown variant"),
+        ("metric = \"beauty\"", 1, "unknown variant `beauty`"),
         ("snap = \"off\"\nlayer_min_mm = = 2", 2, ""),
         ("snap = \"off\"\nsnap = \"auto\"", 2, "duplicate"),
         ("[resin]\nexposure = 3", 2, "unknown field `exposure`"),

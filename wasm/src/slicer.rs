@@ -18,10 +18,12 @@ use cusp_slicer::price::{PriceItem, Prices};
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
 use js_sys::{Function, Uint8Array};
-use tsify::Ts;
+use serde::de::DeserializeOwned;
+use tsify::{Ts, Tsify};
+use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::js::{thrown, to_js};
+use crate::js::{self, thrown, to_js};
 
 /// What every function here throws: the code and the typed details of an [`Error`], and one sentence that says what to do.
 ///
@@ -38,11 +40,12 @@ fn throw(error: impl Into<Error>) -> JsValue {
     thrown(&error.into())
 }
 
-/// The error of a value that does not fit its type: usually malformed options.
-fn throw_conversion(error: impl std::fmt::Display) -> JsValue {
-    throw(OptionsError::Unreadable {
-        system: error.to_string(),
-    })
+/// Reads what JavaScript gives: options, limits or prices.
+fn given<T: DeserializeOwned + Tsify>(value: &Ts<T>) -> Result<T, JsValue>
+where
+    T::JsType: JsCast,
+{
+    js::read(&value.js_value()).map_err(|system| throw(OptionsError::Unreadable { system }))
 }
 
 /// Calls a JavaScript function with the stage, the fraction of the stage that is done, and the fraction of the whole task.
@@ -117,7 +120,7 @@ impl OrientationSearch {
         search: Ts<SearchOptions>,
         candidates: &[f64],
     ) -> Result<OrientationSearch, JsValue> {
-        let options = search.to_rust().map_err(throw_conversion)?;
+        let options = given(&search)?;
         let search = Search::of_measured(options, unpack(candidates));
         search.map(|search| Self { search }).map_err(throw)
     }
@@ -179,7 +182,7 @@ impl Slicer {
     )]
     #[wasm_bindgen(constructor)]
     pub fn new(file: &[u8], options: Ts<ReadOptions>) -> Result<Slicer, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let slicer = job::Slicer::load_with(file, &options).map_err(throw)?;
         Ok(Self {
             slicer,
@@ -259,7 +262,7 @@ impl Slicer {
     )]
     #[wasm_bindgen(unchecked_return_type = "Preview")]
     pub fn preview(&mut self, options: Ts<Options>) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let (preview, profile) = self.slicer.preview(&options).map_err(throw)?;
         self.preview_density = profile.density;
         Ok(to_js(&preview))
@@ -278,8 +281,8 @@ impl Slicer {
         options: Ts<Options>,
         search: Ts<SearchOptions>,
     ) -> Result<OrientationSearch, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
-        let search = search.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
+        let search = given(&search)?;
         let search = self.slicer.search(&options, &search);
         search
             .map(|search| OrientationSearch { search })
@@ -299,7 +302,7 @@ impl Slicer {
         options: Ts<Options>,
         directions: &[f64],
     ) -> Result<Vec<f64>, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let (directions, _) = directions.as_chunks::<3>();
         let task = Task {
             number: 0,
@@ -333,7 +336,7 @@ impl Slicer {
         )]
         progress: Function,
     ) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let report = self
             .slicer
             .plan(&options, &mut progress_to(&progress))
@@ -355,7 +358,7 @@ impl Slicer {
         )]
         progress: Function,
     ) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let mut progress = progress_to(&progress);
         let curve = self.slicer.tradeoff(&options, points, &mut progress).await;
         Ok(to_js(&curve.map_err(throw)?))
@@ -374,7 +377,7 @@ impl Slicer {
         )]
         progress: Function,
     ) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let mut progress = progress_to(&progress);
         let comparison = self.slicer.compare(&options, &mut progress).await;
         Ok(to_js(&comparison.map_err(throw)?))
@@ -390,8 +393,8 @@ impl Slicer {
         reason = "values from JavaScript come by value"
     )]
     pub fn profile(&self, metric: Ts<Metric>, source: Ts<Source>) -> Result<Vec<f32>, JsValue> {
-        let metric = metric.to_rust().map_err(throw_conversion)?;
-        let source = source.to_rust().map_err(throw_conversion)?;
+        let metric = given(&metric)?;
+        let source = given(&source)?;
         Ok(self.slicer.profile(metric, source).map_err(throw)?.density)
     }
 
@@ -421,7 +424,7 @@ impl Slicer {
         )]
         progress: &Function,
     ) -> Result<JsValue, JsValue> {
-        let limits = limits.to_rust().map_err(throw_conversion)?;
+        let limits = given(&limits)?;
         let found = self.slicer.inspect(&limits, &mut progress_to(progress));
         Ok(to_js(&found.map_err(throw)?))
     }
@@ -521,7 +524,7 @@ impl LayerGroups {
 )]
 #[wasm_bindgen]
 pub fn encode_group(format: Ts<Format>, canvas: &[u32], runs: &[u32]) -> Result<Vec<u8>, JsValue> {
-    let format = format.to_rust().map_err(throw_conversion)?;
+    let format = given(&format)?;
     let given = (canvas, LayerRuns::of_words(runs));
     let (&[columns, rows, antialias], Some(runs)) = given else {
         return Err(throw(ArchiveError::from(io::Error::other(
@@ -549,7 +552,7 @@ pub async fn calibrate_layers(
     )]
     progress: Function,
 ) -> Result<JsValue, JsValue> {
-    let options = options.to_rust().map_err(throw_conversion)?;
+    let options = given(&options)?;
     let calibration = Calibration::layers(&options).map_err(throw)?;
     let mut writer = Chunks::to(&take);
     let mut progress = progress_to(&progress);
@@ -630,7 +633,7 @@ pub fn price(
             print_time_s,
         });
     let items: Vec<PriceItem> = items.collect();
-    let prices = prices.to_rust().map_err(throw_conversion)?;
+    let prices = given(&prices)?;
     let price = prices.price(&items, finish.as_deref());
     Ok(to_js(&price.map_err(throw)?))
 }

@@ -5,6 +5,7 @@ use std::ops::Range;
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::job::Options;
+use cusp_slicer::misnamed::with_nearest;
 use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
@@ -28,14 +29,8 @@ pub fn read(path: &Path) -> Result<SettingsFile, Failure> {
         let line = line.map_or(String::new(), |line| format!("line {line}: "));
         in_file(path, &format!("{line}{reason}")).into()
     };
-    let in_toml = |error: &toml::de::Error| wrong(error.span(), error.message());
+    let in_toml = |error: &toml::de::Error| wrong(error.span(), &with_nearest(error.message()));
     let mut table = DeTable::parse(&text).map_err(|error| in_toml(&error))?;
-    let known = known_keys();
-    for key in table.get_ref().keys() {
-        if !known.iter().any(|it| it == key.get_ref()) {
-            return Err(wrong(Some(key.span()), &unknown(key.get_ref(), &known)));
-        }
-    }
     let folder = path.parent().unwrap_or(Path::new(""));
     // These three may be files.
     let weights = take_path(&mut table, "weights", |value| !value.is_empty());
@@ -78,32 +73,4 @@ fn is_json(text: &str) -> bool {
     Path::new(text)
         .extension()
         .is_some_and(|extension| extension == "json")
-}
-
-/// The keys of a file of settings.
-fn known_keys() -> Vec<String> {
-    let options = serde_json::to_value(Options::default()).unwrap_or_default();
-    let keys = options.as_object().map(|options| options.keys().cloned());
-    let keys = keys.into_iter().flatten();
-    keys.chain(["weights".to_owned()]).collect()
-}
-
-/// What to say of a key that nobody knows, with those that share a word with it.
-fn unknown(key: &str, known: &[String]) -> String {
-    let shares = |other: &&String| {
-        let mut words = key.split('_').filter(|word| word.len() > 2);
-        words.any(|word| other.split('_').any(|it| it.starts_with(word)))
-    };
-    let similar: Vec<&str> = known.iter().filter(shares).map(String::as_str).collect();
-    if similar.is_empty() {
-        format!(
-            "there is no setting `{key}`; the settings are {}",
-            known.join(", ")
-        )
-    } else {
-        format!(
-            "there is no setting `{key}`; there is {}",
-            similar.join(", ")
-        )
-    }
 }

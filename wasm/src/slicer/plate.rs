@@ -4,10 +4,11 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{self, Placement, PlateOptions};
 use cusp_slicer::profile::{Metric, Source};
 use js_sys::Function;
-use tsify::Ts;
+use serde::de::DeserializeOwned;
+use tsify::{Ts, Tsify};
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use super::{Chunks, Slicer, progress_to, throw, throw_conversion};
+use super::{Chunks, Slicer, given, progress_to, throw};
 use crate::js::to_js;
 
 /// How copies are arranged if nothing else is asked for.
@@ -79,7 +80,7 @@ impl Plate {
     )]
     #[wasm_bindgen(unchecked_return_type = "Placement[]")]
     pub fn arrange(&mut self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         Ok(to_js(&self.plate.arrange(&options).map_err(throw)?))
     }
 
@@ -93,7 +94,7 @@ impl Plate {
     )]
     #[wasm_bindgen(unchecked_return_type = "ArrangeError[]")]
     pub fn problems(&mut self, options: Ts<PlateOptions>) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let placements: &[Placement] = &options.placements;
         let problems = self.plate.problems(&options, placements);
         Ok(to_js(&problems.map_err(throw)?))
@@ -112,7 +113,7 @@ impl Plate {
         )]
         progress: Function,
     ) -> Result<JsValue, JsValue> {
-        let options = options.to_rust().map_err(throw_conversion)?;
+        let options = given(&options)?;
         let report = self.plate.plan(&options, &mut progress_to(&progress)).await;
         Ok(to_js(&report.map_err(throw)?))
     }
@@ -131,8 +132,8 @@ impl Plate {
         metric: Ts<Metric>,
         source: Ts<Source>,
     ) -> Result<Vec<f32>, JsValue> {
-        let metric = metric.to_rust().map_err(throw_conversion)?;
-        let source = source.to_rust().map_err(throw_conversion)?;
+        let metric = given(&metric)?;
+        let source = given(&source)?;
         let profile = self.plate.profile(plate, metric, source);
         Ok(profile.map_err(throw)?.density)
     }
