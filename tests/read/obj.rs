@@ -104,6 +104,9 @@ fn errors_name_the_line() {
         line,
         found: found.to_owned(),
     };
+    // One polygon, round and round the same corners.
+    let endless = format!("f{}", " 1 2 3".repeat(100_000));
+    let most_facets = (1 << 16) + (start.len() + endless.len()) / 12;
     let cases = [
         ("f 1 2 4", corner(4, "4")),
         ("f 1 2 0", corner(4, "0")),
@@ -131,6 +134,13 @@ fn errors_name_the_line() {
             ObjError::FreeForm {
                 line: 4,
                 keyword: "surf".to_owned(),
+            },
+        ),
+        (
+            &endless,
+            ObjError::TooMany {
+                line: 4,
+                most_facets,
             },
         ),
         ("", ObjError::NoFaces),

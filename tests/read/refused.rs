@@ -216,7 +216,7 @@ fn objects_that_contain_themselves_or_repeat_for_ever_are_refused() {
     }
     assert!(matches!(
         error(&tower, "<item objectid=\"29\"/>"),
-        ThreeMfError::TooMany { .. }
+        ThreeMfError::TooMany { most_facets } if most_facets < 1_300_000
     ));
     // Empty ones cost time, if no memory.
     let empty = tower.replacen(

@@ -93,6 +93,7 @@ fn obj_errors() -> Vec<ObjError> {
         BadCorner { line: 8, found: "9//9".to_owned(), vertices: 6 },
         FewCorners { line: 9, corners: 2 },
         FreeForm { line: 10, keyword: "surf".to_owned() },
+        TooMany { line: 11, most_facets: 65_536 },
         NoFaces {},
     )
 }

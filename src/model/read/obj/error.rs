@@ -54,6 +54,17 @@ pub enum ObjError {
         /// The keyword.
         keyword: String,
     },
+    /// Faces that name the same corners time and again.
+    #[error(
+        "line {line}: the faces come to more than {most_facets} facets, too many for the size of the file; export the model again"
+    )]
+    #[serde(rename = "obj-too-many")]
+    TooMany {
+        /// Line in the file, from 1.
+        line: u64,
+        /// Most facets of a file of its size.
+        most_facets: usize,
+    },
     /// A well-formed OBJ without faces.
     #[error("the OBJ holds no faces; export the model again")]
     #[serde(rename = "obj-no-faces")]

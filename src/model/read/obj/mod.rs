@@ -16,6 +16,11 @@ pub use error::ObjError;
 /// Keywords of free-form surfaces, old ones too. Curves and points have no area, and are ignored.
 const SURFACES: [&[u8]; 4] = [b"surf", b"bsp", b"bzp", b"cdp"];
 
+/// Bytes of a file for each of its facets at least, and facets that any file may have. A facet of a mesh takes 20 bytes or more, half a
+/// vertex included, but a face may name the same corners time and again in two bytes each.
+const LEAST_BYTES: usize = 12;
+const FREE_FACETS: usize = 1 << 16;
+
 /// Reads the faces of an OBJ as triangles, in file order.
 ///
 /// Corners are `v`, `v/vt`, `v//vn` or `v/vt/vn`, counted from 1, or backwards from the last vertex so far if negative.
@@ -25,6 +30,7 @@ const SURFACES: [&[u8]; 4] = [b"surf", b"bsp", b"bzp", b"cdp"];
 /// [`ObjError`], with the line where reading failed.
 pub(super) fn read(bytes: &[u8]) -> Result<Contents, ObjError> {
     let vertices = vertices(bytes)?;
+    let most_facets = FREE_FACETS + bytes.len() / LEAST_BYTES;
     let mut triangles = Triangles::new();
     let (mut so_far, mut corners) = (0, Vec::new());
     for (line, text) in lines(bytes) {
@@ -34,6 +40,9 @@ pub(super) fn read(bytes: &[u8]) -> Result<Contents, ObjError> {
             Some(b"f") => {
                 corners.clear();
                 for word in words {
+                    if triangles.len() + corners.len() > most_facets + 1 {
+                        return Err(ObjError::TooMany { line, most_facets });
+                    }
                     let corner = corner(word, so_far, vertices.len());
                     corners.push(
                         vertices[corner.ok_or_else(|| ObjError::BadCorner {

@@ -14,9 +14,10 @@ use crate::model::read::{Part, PartKind, PlateChoice, Triangles};
 /// Levels of components.
 const MOST_LEVELS: usize = 64;
 
-/// Facets and components that a file may come to, besides those that are in it, so that a small file cannot repeat its
-/// objects for ever.
-const MOST_REPEATED: usize = 1 << 24;
+/// Times that a file may repeat each of its facets and components on average, and how many it may repeat however few it has, so that a
+/// small file cannot fill the memory.
+const MOST_REPEATS: usize = 256;
+const MOST_REPEATED: usize = 1 << 20;
 
 /// The facets of a build, in millimetres.
 pub struct Build<'a> {
@@ -137,7 +138,7 @@ impl<'a> Build<'a> {
             });
         }
         self.placed += 1 + object.facets.len();
-        let most_facets = MOST_REPEATED + self.stored;
+        let most_facets = MOST_REPEATED + MOST_REPEATS * self.stored;
         if self.placed > most_facets {
             return Err(ThreeMfError::TooMany { most_facets });
         }

@@ -67,6 +67,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "obj-bad-corner": "damaged",
   "obj-few-corners": "damaged",
   "obj-free-form": "unusable",
+  "obj-too-many": "unusable",
   "obj-no-faces": "empty",
   "mesh-no-area": "unusable",
   "mesh-zero-height": "unusable",

@@ -56,5 +56,7 @@ export const readers = ({ count }: Pick<Format, "count">) =>
       `Zeile ${count(line)}: Eine Fläche braucht mindestens drei Ecken und hat ${count(corners)}; exportieren Sie das Modell noch einmal.`,
     "obj-free-form": ({ line, keyword }) =>
       `Zeile ${count(line)}: \`${keyword}\` ist eine Freiformfläche ohne Dreiecke; exportieren Sie das Modell als Polygone.`,
+    "obj-too-many": ({ line, most_facets }) =>
+      `Zeile ${count(line)}: Die Flächen ergeben mehr als ${count(most_facets)} Dreiecke, zu viele für die Größe der Datei; exportieren Sie das Modell noch einmal.`,
     "obj-no-faces": () => "Das OBJ enthält keine Flächen; exportieren Sie das Modell noch einmal.",
   }) satisfies Partial<ErrorSentences>;

@@ -57,5 +57,7 @@ export const readers = ({ count }: Pick<Format, "count">) =>
       `Line ${count(line)}: a face needs at least three corners, and has ${count(corners)}; export the model again.`,
     "obj-free-form": ({ line, keyword }) =>
       `Line ${count(line)}: \`${keyword}\` is a free-form surface without facets; export the model as polygons.`,
+    "obj-too-many": ({ line, most_facets }) =>
+      `Line ${count(line)}: the faces come to more than ${count(most_facets)} facets, too many for the size of the file; export the model again.`,
     "obj-no-faces": () => "The OBJ holds no faces; export the model again.",
   }) satisfies Partial<ErrorSentences>;

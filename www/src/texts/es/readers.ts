@@ -56,5 +56,7 @@ export const readers = ({ count }: Pick<Format, "count">) =>
       `Línea ${count(line)}: una cara necesita al menos tres esquinas, y tiene ${count(corners)}; exporte el modelo de nuevo.`,
     "obj-free-form": ({ line, keyword }) =>
       `Línea ${count(line)}: \`${keyword}\` es una superficie libre sin facetas; exporte el modelo como polígonos.`,
+    "obj-too-many": ({ line, most_facets }) =>
+      `Línea ${count(line)}: las caras suman más de ${count(most_facets)} facetas, demasiadas para el tamaño del archivo; exporte el modelo de nuevo.`,
     "obj-no-faces": () => "El OBJ no contiene caras; exporte el modelo de nuevo.",
   }) satisfies Partial<ErrorSentences>;

@@ -56,5 +56,7 @@ export const readers = ({ count }: Pick<Format, "count">) =>
       `Ligne ${count(line)} : une face demande au moins trois coins, et en a ${count(corners)} ; exportez à nouveau le modèle.`,
     "obj-free-form": ({ line, keyword }) =>
       `Ligne ${count(line)} : \`${keyword}\` est une surface libre sans facettes ; exportez le modèle en polygones.`,
+    "obj-too-many": ({ line, most_facets }) =>
+      `Ligne ${count(line)} : les faces donnent plus de ${count(most_facets)} facettes, trop pour la taille du fichier ; exportez à nouveau le modèle.`,
     "obj-no-faces": () => "L’OBJ ne contient pas de faces ; exportez à nouveau le modèle.",
   }) satisfies Partial<ErrorSentences>;

@@ -56,5 +56,7 @@ export const readers = ({ count }: Pick<Format, "count">) =>
       `第 ${count(line)} 行：面至少需要三个角，此处有 ${count(corners)} 个；请重新导出模型。`,
     "obj-free-form": ({ line, keyword }) =>
       `第 ${count(line)} 行：\`${keyword}\` 是没有三角面的自由曲面；请将模型导出为多边形。`,
+    "obj-too-many": ({ line, most_facets }) =>
+      `第 ${count(line)} 行：这些面共有超过 ${count(most_facets)} 个三角面，与文件大小不符；请重新导出模型。`,
     "obj-no-faces": () => "OBJ 中没有面；请重新导出模型。",
   }) satisfies Partial<ErrorSentences>;
