@@ -1,6 +1,5 @@
 //! Several models at once.
 
-use std::path::Path;
 use std::process::Output;
 
 use serde_json::Value;
@@ -166,17 +165,16 @@ fn models_whose_print_files_would_have_one_name_are_refused_before_work() {
 }
 
 #[test]
-fn several_models_need_a_folder_that_is_there() {
+fn several_models_need_a_folder_which_is_made_if_it_is_named_as_one() {
     let folder = TempDir::new().unwrap();
     let ball = sphere(&folder);
     let file = folder.path().join("all.zip").display().to_string();
     let output = quick(&["slice", &ball, &ball, "-o", &file]);
     assert_fails(&output, 2, "-o prints/");
-    let nowhere = folder.path().join("nowhere/").display().to_string();
-    let output = quick(&["slice", &ball, &ball, "-o", &nowhere]);
-    assert_fails(&output, 1, "create it first");
-    assert!(!Path::new(&nowhere).exists());
     assert_eq!(names(&folder), ["ball.stl"]);
+    let prints = folder.path().join("new/prints/").display().to_string();
+    assert!(quick(&["slice", &ball, "-o", &prints]).status.success());
+    assert_eq!(files_in(&prints), ["ball.zip"]);
 }
 
 #[test]

@@ -7,6 +7,7 @@ mod check;
 mod config;
 mod contours;
 mod convert;
+mod examples;
 mod files;
 mod info;
 mod inspect;

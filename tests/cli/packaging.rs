@@ -52,5 +52,9 @@ fn every_command_has_a_manual_page() {
     let written = std::fs::read(folder.path().join("cusp.1")).unwrap();
     assert_eq!(printed.trim_ascii_end(), written.trim_ascii_end());
     let nowhere = folder.path().join("nowhere").display().to_string();
-    assert_fails(&cusp(&["man", "-o", &nowhere]), 1, "create it first");
+    assert_fails(
+        &cusp(&["man", "-o", &nowhere]),
+        1,
+        "at the end of its name makes one",
+    );
 }

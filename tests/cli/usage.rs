@@ -2,6 +2,7 @@
 
 use std::process::Command;
 
+use serde_json::Value;
 use tempfile::TempDir;
 
 use super::{assert_fails, cusp, model, on_cpu, sphere};
@@ -44,6 +45,33 @@ fn help_names_every_command_and_option() {
         "--backend",
     ] {
         assert!(text.contains(option), "{option}");
+    }
+}
+
+#[test]
+fn bad_usage_is_json_for_programs() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    for (arguments, words) in [
+        (
+            &["plan", &ball, "--json", "--tolerence", "1"][..],
+            "unexpected argument '--tolerence' found",
+        ),
+        (
+            &["slice", "--json"],
+            "required arguments were not provided: --output",
+        ),
+        (
+            &["slice", &ball, "-o", "-", "--json"],
+            "would both write to standard output",
+        ),
+    ] {
+        let output = cusp(arguments);
+        assert_eq!(output.status.code(), Some(2));
+        let failed: Value = serde_json::from_slice(&output.stdout).unwrap();
+        assert_eq!(failed["error"]["code"], "usage");
+        let message = failed["error"]["message"].as_str().unwrap();
+        assert!(message.contains(words), "{message}");
     }
 }
 

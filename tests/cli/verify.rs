@@ -100,7 +100,13 @@ fn choices_of_reading_are_in_the_plan_and_verify_follows_them() {
     let text = r#"{ "models": [{ "file": "bowl.3mf", "copies": 2, "surfaces": true, "curved_caps": true }] }"#;
     std::fs::write(&job, text).unwrap();
     let job = job.display().to_string();
-    let planned = json(&on_cpu(&["plan", &job, "--json"]));
+    let planned = json(&on_cpu(&[
+        "plan",
+        &job,
+        "--printer",
+        "mars-4-ultra",
+        "--json",
+    ]));
     let file = &planned["plates"][0]["plate"]["models"][0]["file"];
     assert_eq!(
         (&file["surfaces"], &file["curved_caps"]),

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
 use cusp_slicer::job::Slicer;
+use cusp_slicer::misnamed::with_nearest;
 use cusp_slicer::model::read::{HEAD_BYTES, ReadOptions, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::progress::Cancelled;
@@ -34,7 +35,7 @@ pub struct Failure {
 #[derive(Debug, Clone, Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Problem {
-    /// The code of the library's error; `file` if a file cannot be read or written.
+    /// The code of the library's error; `file` if a file cannot be read or written, `usage` if the command line is wrong.
     pub code: String,
     /// One sentence that says what to do.
     pub message: String,
@@ -145,7 +146,14 @@ impl Failure {
 /// Reads a JSON file of the user's own.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
     let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
-    Ok(serde_json::from_str(&text).map_err(|error| in_file(path, &error))?)
+    parse_json(path, &text)
+}
+
+/// Parses the JSON in a file, which may begin with a byte-order mark.
+pub fn parse_json<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Failure> {
+    let text = text.strip_prefix('\u{feff}').unwrap_or(text);
+    let value = serde_json::from_str(text);
+    Ok(value.map_err(|error| in_file(path, &with_nearest(&error.to_string())))?)
 }
 
 pub fn in_file(path: &Path, error: &dyn Display) -> String {
@@ -379,8 +387,11 @@ fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf,
             Err("is a link to a file that does not exist; name that file instead".to_owned())
         }
         Err(_) => {
-            let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
-            let folder = if names_folder { output } else { parent(output) };
+            let folder = if names_folder(output) {
+                output
+            } else {
+                parent(output)
+            };
             if folder.is_dir() {
                 Ok(output.to_owned())
             } else {
@@ -391,6 +402,30 @@ fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf,
             }
         }
     }
+}
+
+/// Whether a path has a separator at its end.
+fn names_folder(path: &Path) -> bool {
+    path.to_string_lossy().ends_with(std::path::is_separator)
+}
+
+/// Whether print files go into it: a folder that is there, or is named as one.
+pub fn is_folder(output: &Path) -> bool {
+    names_folder(output) || (!is_standard(output) && output.is_dir())
+}
+
+/// Makes a folder that is named with a separator at its end, unless it is there.
+pub fn make_folder(folder: &Path) -> Result<(), Failure> {
+    if folder.is_dir() {
+        return Ok(());
+    }
+    if !names_folder(folder) {
+        let separator = std::path::MAIN_SEPARATOR;
+        let reason =
+            format!("there is no such folder; {separator} at the end of its name makes one");
+        return Err(in_file(folder, &reason).into());
+    }
+    Ok(fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?)
 }
 
 /// The folder that a path is in.

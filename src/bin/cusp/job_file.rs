@@ -9,7 +9,7 @@ use cusp_slicer::plan::HeightRange;
 use serde::{Deserialize, Serialize};
 
 use crate::arguments::Choices;
-use crate::files::{Failure, Reading, WeightsFile, in_file, is_standard, read};
+use crate::files::{Failure, Reading, WeightsFile, is_standard, read_json};
 use crate::plate::Places;
 use crate::usage::wrong_usage;
 
@@ -129,9 +129,7 @@ pub fn job_file(models: &[PathBuf]) -> Result<Option<JobFile>, Failure> {
     if is_standard(path) || !is_json {
         return Ok(None);
     }
-    let bytes = read(path)?;
-    let job = serde_json::from_slice(&bytes);
-    Ok(Some(job.map_err(|error| in_file(path, &error))?))
+    read_json(path).map(Some)
 }
 
 pub fn read_job(

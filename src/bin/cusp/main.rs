@@ -29,6 +29,7 @@ mod verify;
 mod visible;
 mod watch;
 
+use std::env;
 use std::path::PathBuf;
 use std::process::ExitCode;
 use std::sync::atomic::{AtomicBool, Ordering};
@@ -47,6 +48,7 @@ use plate::Plating;
 use price::Pricing;
 use simulate::Simulating;
 use terminal::{print_json, say};
+use usage::exit;
 use verify::Verifying;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
@@ -187,33 +189,12 @@ fn tell(failure: Failure) -> u8 {
     exit_code
 }
 
-impl Command {
-    /// Whether a program reads what is printed.
-    fn is_json(&self) -> bool {
-        match self {
-            Self::Slice { slicing, .. } | Self::Plan { slicing } => slicing.json,
-            Self::Contours(contouring) => contouring.studying.json,
-            Self::Plate(plating) => plating.json,
-            Self::Tradeoff { studying, .. } | Self::Compare { studying } => studying.json,
-            Self::Check(checking) => checking.studying.json,
-            Self::Orient(orienting) => orienting.json,
-            Self::Price(pricing) => pricing.json,
-            Self::Verify(verifying) => verifying.json,
-            Self::Simulate(simulating) => simulating.json,
-            Self::Inspect(inspecting) => inspecting.json,
-            Self::Convert(converting) => converting.json,
-            Self::Calibrate(calibrating) => calibrating.is_json(),
-            Self::Saliency { json, .. } | Self::Printers { json } | Self::Info { json, .. } => {
-                *json
-            }
-            Self::Completions { .. } | Self::Man { .. } => false,
-        }
-    }
-}
-
 fn main() -> ExitCode {
-    let command = Cli::parse().command;
-    IS_JSON.store(command.is_json(), Ordering::Relaxed);
+    // Also where the rest cannot be parsed.
+    IS_JSON.store(env::args_os().any(|it| it == "--json"), Ordering::Relaxed);
+    let command = Cli::try_parse()
+        .unwrap_or_else(|error| exit(&error))
+        .command;
     let result = match command {
         Command::Slice { slicing, output } => slice::slice(&slicing, &output),
         Command::Plan { slicing } => slice::plan(&slicing),

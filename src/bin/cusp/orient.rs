@@ -15,7 +15,7 @@ use cusp_slicer::orientation::{
 use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
-use crate::files::{Failure, Output, Reading, in_file};
+use crate::files::{Failure, Output, Reading, in_file, parse_json};
 use crate::terminal::{Bar, duration, print, print_json, print_json_line, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
@@ -190,7 +190,7 @@ fn read_parts(orienting: &Orienting) -> Result<Vec<OrientationPart>, Failure> {
     for path in &orienting.merge {
         let text = fs::read_to_string(path).map_err(|error| in_file(path, &error))?;
         for line in text.lines() {
-            parts.push(serde_json::from_str(line).map_err(|error| in_file(path, &error))?);
+            parts.push(parse_json(path, line)?);
         }
     }
     Ok(parts)

@@ -8,7 +8,7 @@ use clap_complete::Shell;
 use clap_mangen::Man;
 
 use crate::Cli;
-use crate::files::{Failure, Output, in_file};
+use crate::files::{Failure, Output, make_folder};
 use crate::terminal::print;
 
 /// Prints the completions for a shell.
@@ -27,9 +27,7 @@ pub fn man(folder: Option<&Path>) -> Result<(), Failure> {
         let page = page_of(&cli)?;
         return Ok(print(String::from_utf8_lossy(&page).trim_end())?);
     };
-    if !folder.is_dir() {
-        return Err(in_file(folder, &"there is no such folder; create it first").into());
-    }
+    make_folder(folder)?;
     let mut pages = Vec::new();
     collect(&cli, &mut pages)?;
     for (path, page) in pages {

@@ -8,9 +8,8 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{Backend, PlatesReport};
 
 use crate::arguments::{Choices, Slicing};
-use crate::files::{Failure, Output, in_file, is_standard};
+use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder};
 use crate::job_file::{Job, JobFile, JobModel, job_file, path_from, read_job};
-use crate::slice::is_folder;
 use crate::terminal::{Bar, duration, open_gpu_of_plate, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
 use crate::values::not_negative;
@@ -147,6 +146,7 @@ fn print_files(job: &Job, output: &Path, plates: usize) -> Result<Vec<PathBuf>, 
     if is_folder(output) {
         let print_file = job.options.options.print_file();
         let print_file = print_file.map_err(|error| job.failure(&error))?;
+        make_folder(output)?;
         return Ok(numbered(output, "plate", &print_file.extension));
     }
     if plates == 1 {

@@ -14,7 +14,7 @@ use serde::Serialize;
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::export::{export, export_plugs};
-use crate::files::{Failure, Output, in_file, is_standard};
+use crate::files::{Failure, Output, is_folder, make_folder};
 use crate::plate;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
@@ -93,21 +93,13 @@ fn write_meshes(slicing: &Slicing, slicer: &Slicer) -> Result<(), Failure> {
     Ok(())
 }
 
-/// Whether print files go into it: a folder that is there, or is named as one.
-pub fn is_folder(output: &Path) -> bool {
-    let names_folder = output.to_string_lossy().ends_with(std::path::is_separator);
-    names_folder || (!is_standard(output) && output.is_dir())
-}
-
 /// Slices each model into a print file in a folder.
 fn slice_all(slicing: &Slicing, folder: &Path) -> Result<(), Failure> {
-    if !folder.is_dir() {
-        return Err(in_file(folder, &"there is no such folder; create it first").into());
-    }
     let settings = slicing.choices.settings()?;
     // Wrong options are wrong for every model: they are reported once.
     let print_file = settings.options.print_file();
     let print_file = print_file.map_err(|error| error.to_string())?;
+    make_folder(folder)?;
     let batch = Batch {
         outputs: outputs_in(folder, &slicing.models, &print_file.extension)?,
         ..batch_of(slicing, &settings)

@@ -2,13 +2,17 @@
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::atomic::Ordering;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
 use clap::{ArgMatches, Args, Command, CommandFactory as _, FromArgMatches, Id};
 
-use crate::Cli;
-use crate::files::is_standard;
+use serde_json::Value;
+
+use crate::files::{Failed, Problem, is_standard};
+use crate::terminal::print_json;
+use crate::{Cli, IS_JSON};
 
 /// The names of arguments that are on the command line. All others have their defaults, before which a file of settings goes.
 pub struct Given(HashSet<String>);
@@ -50,15 +54,35 @@ impl Args for Given {
     }
 }
 
+/// Exits with a usage error, for programs in JSON too, or with the help or version that was asked for.
+pub fn exit(error: &clap::Error) -> ! {
+    if error.use_stderr() && IS_JSON.load(Ordering::Relaxed) {
+        let text = error.render().to_string();
+        // What follows an empty line is for people: tips and the usage.
+        let reason = text.split("\n\n").next().unwrap_or_default();
+        let words: Vec<&str> = reason.split_whitespace().collect();
+        let message = words.join(" ");
+        let error = Problem {
+            code: "usage".to_owned(),
+            message: message
+                .strip_prefix("error: ")
+                .unwrap_or(&message)
+                .to_owned(),
+            detail: Value::Null,
+            file: None,
+        };
+        let _ = print_json(&Failed { error });
+    }
+    error.exit()
+}
+
 /// Exits with a usage error of a command.
 pub fn wrong_usage(command: &str, message: &str) -> ! {
     let mut cli = Cli::command();
     cli.build();
     let command = cli.find_subcommand_mut(command);
-    command
-        .expect("the command that was parsed")
-        .error(ErrorKind::ArgumentConflict, message)
-        .exit()
+    let command = command.expect("the command that was parsed");
+    exit(&command.error(ErrorKind::ArgumentConflict, message))
 }
 
 /// Exits with a usage error if both a file and a report would go to standard output.
