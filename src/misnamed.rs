@@ -22,16 +22,19 @@ fn suggested(message: &str, opening: &str) -> Option<String> {
     Some(format!("{before}{name}`: did you mean `{nearest}`?{after}"))
 }
 
-/// The known name with the fewest letters that have to be changed, if these are a third at most, or one that begins like this name.
+/// The known name that adds a unit, or the one with the fewest letters to change, if these are a third at most, or one that begins alike.
 fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
-    let by_changes = known.clone().map(|it| (changes(name, it), it));
-    let (fewest, nearest) = by_changes.min_by_key(|(changes, _)| *changes)?;
-    if 3 * fewest <= name.len().max(nearest.len()) {
-        return Some(nearest);
-    }
-    let mut longer =
-        known.filter(|it| name.len() > 2 && (it.starts_with(name) || name.starts_with(it)));
-    longer.next()
+    let unit = |it: &&str| {
+        it.strip_prefix(name)
+            .is_some_and(|rest| rest.starts_with('_'))
+    };
+    let nearest = known.clone().min_by_key(|it| changes(name, it));
+    let near = |it: &&str| 3 * changes(name, it) <= name.len().max(it.len());
+    let alike = |it: &&str| name.len() > 2 && (it.starts_with(name) || name.starts_with(*it));
+    let by_unit = known.clone().find(unit);
+    by_unit
+        .or(nearest.filter(near))
+        .or(known.clone().find(alike))
 }
 
 /// Number of letters to insert, to remove or to replace (Levenshtein, 1966).
@@ -75,6 +78,10 @@ mod tests {
             (
                 r#"{"layer_max":1}"#,
                 "unknown field `layer_max`: did you mean `layer_max_mm`? at line 1 column 12",
+            ),
+            (
+                r#"{"layer_max_mn":1}"#,
+                "unknown field `layer_max_mn`: did you mean `layer_max_mm`? at line 1 column 15",
             ),
             (
                 r#"{"colour":1}"#,

@@ -61,8 +61,8 @@ fn json(value: &JsValue, depth: usize) -> Result<Value, String> {
         return Ok(Value::Null);
     }
     if Array::is_array(value) || ArrayBuffer::is_view(value) {
-        let items = Array::from(value).iter();
-        let items = items.map(|item| json(&item, depth + 1));
+        let items = Array::from(value);
+        let items = items.iter().map(|item| json(&item, depth + 1));
         return Ok(Value::Array(items.collect::<Result<_, _>>()?));
     }
     let Some(object) = value.dyn_ref::<Object>().filter(|_| !value.is_function()) else {

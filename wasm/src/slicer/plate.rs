@@ -4,8 +4,7 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{self, Placement, PlateOptions};
 use cusp_slicer::profile::{Metric, Source};
 use js_sys::Function;
-use serde::de::DeserializeOwned;
-use tsify::{Ts, Tsify};
+use tsify::Ts;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use super::{Chunks, Slicer, given, progress_to, throw};
