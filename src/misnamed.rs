@@ -17,13 +17,13 @@ fn suggested(message: &str, opening: &str) -> Option<String> {
     // Where the name stands follows the list.
     let end = rest.rfind('`')? + 1;
     let known = rest[..end].split('`').skip(1).step_by(2);
-    let nearest = nearest(name, known)?;
+    let nearest = nearest(name, &known)?;
     let (before, after) = (&message[..start], &rest[end..]);
     Some(format!("{before}{name}`: did you mean `{nearest}`?{after}"))
 }
 
 /// The known name that adds a unit, or the one with the fewest letters to change, if these are a third at most, or one that begins alike.
-fn nearest<'a>(name: &str, known: impl Iterator<Item = &'a str> + Clone) -> Option<&'a str> {
+fn nearest<'a>(name: &str, known: &(impl Iterator<Item = &'a str> + Clone)) -> Option<&'a str> {
     let unit = |it: &&str| {
         it.strip_prefix(name)
             .is_some_and(|rest| rest.starts_with('_'))
