@@ -13,11 +13,7 @@ use glam::Vec3;
 
 /// The surface of a model that is printed once.
 fn surface<'a>(flats: &'a [Flat], steepest: &'a [f32]) -> Surface<'a> {
-    Surface {
-        flats,
-        steepest,
-        copies: 1,
-    }
+    Surface { flats, steepest }
 }
 
 fn bins_of(mesh: &Mesh, bin_mm: f64) -> Bins {
@@ -290,7 +286,7 @@ fn flats_come_before_sharp_changes_and_larger_before_smaller() {
 }
 
 #[test]
-fn flats_of_all_models_and_copies_add_up() {
+fn flats_of_a_model_count_whatever_stands_beside_it() {
     let of = |side: f32, height: f32| {
         let mesh = on_plate(&solids::cuboid(Vec3::new(side, side, height)));
         FacetBins::of(&mesh, bins_of(&mesh, 0.1)).flats
@@ -301,18 +297,12 @@ fn flats_of_all_models_and_copies_add_up() {
         count: 90,
         size_mm: 0.1,
     };
-    let surfaces = |copies| {
-        [
-            Surface {
-                copies,
-                ..surface(&small, &[])
-            },
-            surface(&large, &[]),
-        ]
-    };
-    assert_eq!(snap_planes(&surfaces(1), bins, 1.0), [50, 30]);
-    assert_eq!(snap_planes(&surfaces(1), bins, 5.0), [50]);
-    assert_eq!(snap_planes(&surfaces(7), bins, 5.0), [30, 50]);
+    let surfaces = [surface(&small, &[]), surface(&large, &[])];
+    assert_eq!(snap_planes(&surfaces, bins, 1.0), [50, 30]);
+    assert_eq!(snap_planes(&surfaces, bins, 5.0), [50]);
+    // Seven of them are seven flats, each too small.
+    assert!(snap_planes(&[surfaces[0]; 7], bins, 5.0).is_empty());
+    assert_eq!(snap_planes(&[surfaces[0]; 7], bins, 4.0), [30]);
 }
 
 #[test]

@@ -12,6 +12,39 @@ pub enum ArrangeError {
     #[error("there is no model on the plate; add one")]
     #[serde(rename = "plate-empty")]
     Empty,
+    /// There are more copies than can be planned.
+    #[error(
+        "{copies} copies are too many for a job, which has {most_copies} at most; make several jobs of them"
+    )]
+    #[serde(rename = "too-many-copies")]
+    TooManyCopies {
+        /// Copies of all models.
+        copies: usize,
+        /// Most copies of a job.
+        most_copies: usize,
+    },
+    /// A model has other copies than places.
+    #[error(
+        "model {model_number} is to be printed {copies} times, and has {places} places; correct one of them, or arrange the plate"
+    )]
+    #[serde(rename = "plate-other-copies")]
+    OtherCopies {
+        /// The model, counted from 1.
+        model_number: usize,
+        /// Copies asked for.
+        copies: usize,
+        /// Places given.
+        places: usize,
+    },
+    /// There is nothing on a plate, but on one after it.
+    #[error(
+        "nothing stands on plate {plate_number}, but on one after it; number plates without gaps"
+    )]
+    #[serde(rename = "plate-gap")]
+    EmptyPlate {
+        /// The plate, counted from 1.
+        plate_number: usize,
+    },
     /// Neither a printer nor pixels and their pitch are given, so the plate has no size.
     #[error("the size of the plate is not known; choose a printer, or give pixels and pitch")]
     #[serde(rename = "plate-without-size")]

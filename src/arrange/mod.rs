@@ -8,6 +8,7 @@ mod arranging;
 mod check;
 mod error;
 mod outline;
+mod shadow;
 mod sheet;
 
 use glam::DVec2;
@@ -18,6 +19,7 @@ pub use arranging::{Arranging, TURN_DEG};
 pub use check::{Standing, problems};
 pub use error::ArrangeError;
 pub use outline::Outline;
+pub use shadow::shadow_mm2;
 use sheet::Sheet;
 
 /// Beyond any plate, in pixels.

@@ -44,7 +44,6 @@ impl PlannedModel {
             shapes: &self.measured.shapes,
             model: self.model,
             tolerance: self.tolerance,
-            copies: self.copies,
         }
     }
 

@@ -35,8 +35,6 @@ pub struct Part<'a> {
     pub model: usize,
     /// Its own tolerance, in place of the plan's.
     pub tolerance: Option<f64>,
-    /// How often it is printed.
-    pub copies: usize,
 }
 
 impl<'a> Part<'a> {
@@ -47,7 +45,6 @@ impl<'a> Part<'a> {
             shapes,
             model: 0,
             tolerance: None,
-            copies: 1,
         }
     }
 }
@@ -110,7 +107,6 @@ impl<'a> Planning<'a> {
                     .map(|part| Surface {
                         flats: &part.shapes.flats,
                         steepest: &part.shapes.of(layering.source).steepest,
-                        copies: part.copies,
                     })
                     .collect();
                 snap_planes(&surfaces, errors.bins(), area_mm2)

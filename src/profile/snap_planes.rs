@@ -17,28 +17,36 @@ pub struct Surface<'a> {
     pub flats: &'a [Flat],
     /// The largest `n_z²` of each bin; bins without surface have no density, so nothing changes there.
     pub steepest: &'a [f32],
-    /// How often it is printed.
-    pub copies: usize,
 }
 
-/// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets of all models have a
-/// total area of at least `flat_area_mm2`, by area; then changes of a model's cusp height density by more than [`SHARP`], by size.
+/// Boundaries of bins that deserve a plane, the most important first: heights at which horizontal facets of a model have a total area of
+/// at least `flat_area_mm2`, by area; then changes of a model's cusp height density by more than [`SHARP`], by size. Of several
+/// models the largest area and the largest change count, so that neither copies nor other models make a plane.
 pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
-    let mut flats = levels(surfaces, bins);
-    flats.retain(|&(_, area_mm2)| area_mm2 >= flat_area_mm2);
+    let mut flats: Vec<(u32, f64)> = Vec::new();
     let mut sharp: Vec<(u32, f64)> = Vec::new();
     for surface in surfaces {
+        let levels = levels(surface.flats, bins);
+        flats.extend(
+            levels
+                .into_iter()
+                .filter(|&(_, area_mm2)| area_mm2 >= flat_area_mm2),
+        );
         sharp.extend(sharp_changes(surface.steepest, bins));
     }
     if surfaces.len() > 1 {
-        // Where several models change, the largest change counts.
-        let order = ascending(sharp.iter().map(|&(_, change)| -change));
-        let mut largest: Vec<(u32, f64)> = order.into_iter().map(|place| sharp[place]).collect();
-        sort_by_number(&mut largest, |&(boundary, _)| f64::from(boundary));
-        sharp = largest;
-        sharp.dedup_by_key(|&mut (boundary, _)| boundary);
+        (flats, sharp) = (largest(&flats), largest(&sharp));
     }
     [largest_first(&flats), largest_first(&sharp)].concat()
+}
+
+/// The largest worth of each boundary, in ascending order of boundaries.
+fn largest(boundaries: &[(u32, f64)]) -> Vec<(u32, f64)> {
+    let order = ascending(boundaries.iter().map(|&(_, worth)| -worth));
+    let mut largest: Vec<(u32, f64)> = order.into_iter().map(|place| boundaries[place]).collect();
+    sort_by_number(&mut largest, |&(boundary, _)| f64::from(boundary));
+    largest.dedup_by_key(|&mut (boundary, _)| boundary);
+    largest
 }
 
 /// The boundaries at which the density of a model changes sharply, in ascending order, and by how much.
@@ -66,20 +74,14 @@ fn largest_first(boundaries: &[(u32, f64)]) -> Vec<u32> {
 }
 
 /// The boundaries nearest to horizontal facets, in ascending order, and the total area of those facets in mm².
-fn levels(surfaces: &[Surface<'_>], bins: Bins) -> Vec<(u32, f64)> {
-    let flats = surfaces.iter().flat_map(|surface| {
-        let copies = surface.copies as f64;
-        let area = move |flat: &Flat| (flat.boundary, flat.area_mm2 * copies);
-        surface.flats.iter().map(area)
-    });
-    let flats: Vec<(u32, f64)> = flats.collect();
-    let order = ascending(flats.iter().map(|&(boundary, _)| f64::from(boundary)));
-    let flats: Vec<(u32, f64)> = order.into_iter().map(|place| flats[place]).collect();
+fn levels(flats: &[Flat], bins: Bins) -> Vec<(u32, f64)> {
+    let order = ascending(flats.iter().map(|flat| f64::from(flat.boundary)));
+    let flats: Vec<Flat> = order.into_iter().map(|place| flats[place]).collect();
     flats
-        .chunk_by(|a, b| a.0 == b.0)
+        .chunk_by(|a, b| a.boundary == b.boundary)
         .map(|level| {
-            let area_mm2 = level.iter().map(|&(_, area_mm2)| area_mm2).sum();
-            (level[0].0, area_mm2)
+            let area_mm2 = level.iter().map(|flat| flat.area_mm2).sum();
+            (level[0].boundary, area_mm2)
         })
         .filter(|&(boundary, _)| boundary > 0 && (boundary as usize) < bins.count)
         .collect()

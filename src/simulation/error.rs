@@ -17,6 +17,12 @@ pub enum SimulationError {
     /// The print file cannot be read.
     #[error(transparent)]
     File(#[from] PrintFileError),
+    /// Several copies stand in its masks.
+    #[error("it prints {copies} copies, and one model is measured; slice it alone")]
+    Several {
+        /// Copies in its masks.
+        copies: usize,
+    },
     /// A layer is not above the one before.
     #[error("its layer {layer} ends at {z_mm} mm, not above the layer below; export it again")]
     ZOrder {

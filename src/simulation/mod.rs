@@ -103,6 +103,9 @@ pub fn simulate(
 ) -> Result<Simulation, SimulationError> {
     report(progress, 0.0)?;
     let file = PrintFile::open(print_file)?;
+    if let Some(copies) = file.copies().filter(|copies| *copies > 1) {
+        return Err(SimulationError::Several { copies });
+    }
     let mut flips = file.about().flips();
     if let Some(is_mirrored) = knowledge.is_mirrored {
         flips.mirror_x = is_mirrored;

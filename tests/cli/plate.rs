@@ -100,6 +100,7 @@ fn a_job_file_holds_models_options_and_places() {
     );
     // Places can be edited by hand, models have tolerances of their own, and paths are relative to the file.
     written["placements"].as_array_mut().unwrap().truncate(2);
+    written["models"][0]["copies"] = 2.into();
     written["models"][0]["file"] = "ball.stl".into();
     written["models"][0]["tolerance"] = 0.055.into();
     std::fs::write(&job, written.to_string()).unwrap();
@@ -116,7 +117,7 @@ fn a_job_file_holds_models_options_and_places() {
         "0.1",
         "--json",
     ]));
-    assert_eq!(report["plates"][0]["plate"]["models"][0]["copies"], 5);
+    assert_eq!(report["plates"][0]["plate"]["models"][0]["copies"], 2);
     assert_eq!(report["plates"][0]["options"]["layer_max_mm"], 0.1);
 }
 

@@ -207,6 +207,9 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
         assert_fails(&cusp(&["verify", &manifest, &ball]), 1, "give the job file");
     }
 
+    // Copies are measured one by one, as models alone.
+    let output = cusp(&["simulate", &ball, &path("print-1.zip")]);
+    assert_fails(&output, 1, "copies, and one model is measured");
     // A lie anywhere is found.
     let refuses = |change: &dyn Fn(&mut Value), words: &str| {
         let mut lie = whole.clone();
@@ -231,6 +234,10 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
     refuses(
         &|lie| lie["plates"][0]["plate"]["models"][0]["options"]["tolerance"] = 0.5.into(),
         "it is not what the model and its options give",
+    );
+    refuses(
+        &|lie| lie["plates"][0]["plate"]["models"][0]["options"]["copies"] = 3.into(),
+        "copies is 3",
     );
     refuses(
         &|lie| {

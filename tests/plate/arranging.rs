@@ -4,7 +4,7 @@ use cusp_slicer::arrange::{ArrangeError, Arranging};
 use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
 use glam::Vec3;
 
-use super::{job, options, pixels, plan, plate, supported};
+use super::{job, options, pixels, placed, plan, plate, supported};
 use crate::common::solids;
 
 /// For each plate and model, the pixels that it lights in any layer, found from the masks of the plate with nothing else on it.
@@ -17,10 +17,7 @@ fn shadows(
         .iter()
         .map(|place| {
             let mut alone = plate(models);
-            let options = PlateOptions {
-                placements: vec![Placement { plate: 0, ..*place }],
-                ..options.clone()
-            };
+            let options = placed(options, &[Placement { plate: 0, ..*place }]);
             let report = plan(&mut alone, &options).unwrap();
             let mut lit = vec![vec![false; 400]; 300];
             for layer in 0..report.plates[0].layers {
@@ -284,10 +281,7 @@ fn copies_that_overlap_or_leave_the_plate_are_found() {
         turn_deg: 0,
     };
     let codes = |placements: &[Placement]| {
-        let options = PlateOptions {
-            placements: placements.to_vec(),
-            ..job(options(), &[1, 1])
-        };
+        let options = placed(&job(options(), &[1, 1]), placements);
         let problems = plate(&[&cube, &ball])
             .problems(&options, placements)
             .unwrap();

@@ -6,7 +6,9 @@ mod sharing;
 
 use crate::common::{load, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, PlatesReport};
+use cusp_slicer::job::{
+    Backend, ModelOptions, Options, Placement, Plate, PlateOptions, PlatesReport,
+};
 use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};
 
 /// Options with a screen of 40 × 30 mm in pixels of 0.1 mm.
@@ -49,6 +51,16 @@ fn job(options: Options, copies: &[usize]) -> PlateOptions {
         models: models.collect(),
         ..PlateOptions::default()
     }
+}
+
+/// The same with copies at these places and no others.
+fn placed(options: &PlateOptions, placements: &[Placement]) -> PlateOptions {
+    let mut options = options.clone();
+    for (model, own) in options.models.iter_mut().enumerate() {
+        own.copies = placements.iter().filter(|it| it.model == model).count();
+    }
+    options.placements = placements.to_vec();
+    options
 }
 
 fn plan(plate: &mut Plate, options: &PlateOptions) -> Result<PlatesReport, Error> {

@@ -1,7 +1,8 @@
 //! What copies share: rays, plans, time.
 
 use cusp_slicer::Error;
-use cusp_slicer::job::{ModelOptions, Options, PlateOptions, Slicer};
+use cusp_slicer::arrange::shadow_mm2;
+use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions, Slicer};
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;
@@ -199,6 +200,70 @@ fn time_is_shared_by_the_copies_that_a_layer_reaches() {
     assert_near(models[1].print_time_s, quarter_s + layer_s(4.0, 8.0), 1e-3);
     let all_s = 3.0 * models[0].print_time_s + models[1].print_time_s;
     assert_near(all_s, report.print_time_s, 1e-3);
+}
+
+#[test]
+fn shares_follow_the_true_area_of_shadows() {
+    // 60 and 10 mm² of shadow, of which the narrow one lies in as many cells of the plate as one of 40.
+    let (wide, narrow) = (
+        solids::cuboid(Vec3::new(10.0, 6.0, 5.0)),
+        solids::cuboid(Vec3::new(20.0, 0.5, 5.0)),
+    );
+    let report = plan(&mut plate(&[&wide, &narrow]), &job(options(), &[1, 1])).unwrap();
+    let models = &report.plates[0].plate.as_ref().unwrap().models;
+    let all_s = report.print_time_s;
+    assert_near(models[0].print_time_s, all_s * 6.0 / 7.0, 1e-3);
+    assert_near(models[1].print_time_s, all_s / 7.0, 1e-3);
+    // What lies over something else has no shadow of its own.
+    let mut mushroom = solids::moved(&solids::sphere(5.0, 5), Vec3::Z * 9.0);
+    mushroom.extend(solids::cuboid(Vec3::new(2.0, 2.0, 6.0)));
+    let mesh = crate::common::on_plate(&mushroom);
+    assert_near(shadow_mm2(&mesh), std::f64::consts::PI * 25.0, 0.1);
+}
+
+#[test]
+fn the_plan_does_not_depend_on_the_number_of_copies() {
+    // A peg whose top, of less than 1 mm², deserves no plane.
+    let mut pegged = solids::cuboid(Vec3::new(8.0, 8.0, 3.0));
+    let peg = solids::cuboid(Vec3::new(0.7, 0.7, 1.03));
+    pegged.extend(solids::moved(&peg, Vec3::new(3.0, 3.0, 3.0)));
+    let mut many = plate(&[&pegged]);
+    let of = |many: &mut Plate, copies| plan(many, &job(options(), &[copies])).unwrap();
+    let one = of(&mut many, 1).plates[0].z_mm.clone();
+    for copies in [2, 3, 5] {
+        assert_eq!(of(&mut many, copies).plates[0].z_mm, one, "{copies}");
+    }
+}
+
+#[test]
+fn copies_are_bounded_and_agree_with_their_places() {
+    let cube = solids::cube(3.0);
+    let mut many = plate(&[&cube]);
+    let code = |many: &mut Plate, options: &PlateOptions| plan(many, options).unwrap_err().code();
+    for copies in [10_001, usize::MAX] {
+        assert_eq!(
+            code(&mut many, &job(options(), &[copies])),
+            "too-many-copies"
+        );
+        let arranged = many.arrange(&job(options(), &[copies]));
+        assert_eq!(arranged.unwrap_err().code(), "too-many-copies");
+    }
+    let place = |plate, x_mm| Placement {
+        model: 0,
+        plate,
+        x_mm,
+        y_mm: 0.0,
+        turn_deg: 0,
+    };
+    let placed = |copies, placements: &[Placement]| PlateOptions {
+        placements: placements.to_vec(),
+        ..job(options(), &[copies])
+    };
+    let places = [place(0, -5.0), place(0, 5.0)];
+    assert_eq!(code(&mut many, &placed(3, &places)), "plate-other-copies");
+    assert!(plan(&mut many, &placed(2, &places)).is_ok());
+    let gap = [place(0, 0.0), place(2, 0.0)];
+    assert_eq!(code(&mut many, &placed(2, &gap)), "plate-gap");
 }
 
 #[test]

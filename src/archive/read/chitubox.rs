@@ -65,7 +65,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         coding: Coding::Png,
         places: Places::InZip(masks),
         pictures: previews.map(|name| Picture::Png(name.to_owned())).collect(),
-        pose: None,
+        stated: None,
         findings: Vec::new(),
     })
 }

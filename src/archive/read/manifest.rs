@@ -5,7 +5,7 @@ use serde_json::Value;
 use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, Stated, positive};
 use crate::model::{ModelUnit, Pose};
 
 const FILE: &str = "manifest.json";
@@ -57,9 +57,14 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         places: Places::InZip(masks),
         pictures: Vec::new(),
         // A converted file has no options.
-        pose: match &manifest["options"] {
+        stated: match &manifest["options"] {
             Value::Null => None,
-            options => Some(pose(options).ok_or_else(|| bad("rotation"))?),
+            options => Some(Stated {
+                pose: pose(options).ok_or_else(|| bad("rotation"))?,
+                copies: manifest["plate"]["placements"]
+                    .as_array()
+                    .map_or(1, Vec::len),
+            }),
         },
         findings: Vec::new(),
     })

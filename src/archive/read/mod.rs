@@ -69,6 +69,14 @@ pub struct PrintFile<'a> {
     contents: Contents,
 }
 
+/// The models that a file says it was made of.
+#[derive(Debug, Clone, Copy)]
+struct Stated {
+    /// That of the first model.
+    pose: Pose,
+    copies: usize,
+}
+
 /// What a format's reader finds.
 struct Contents {
     about: About,
@@ -77,7 +85,7 @@ struct Contents {
     places: Places,
     pictures: Vec<Picture>,
     /// How the model stands, if the file says so. Its bounding box is then at the centre of the masks.
-    pose: Option<Pose>,
+    stated: Option<Stated>,
     /// What is wrong besides layers and heights.
     findings: Vec<FileFinding>,
 }
@@ -162,7 +170,12 @@ impl<'a> PrintFile<'a> {
 
     /// How the model stands, if the file says so. Its bounding box is then at the centre of the masks.
     pub fn pose(&self) -> Option<Pose> {
-        self.contents.pose
+        self.contents.stated.map(|it| it.pose)
+    }
+
+    /// Number of copies of models in the masks, if the file says so.
+    pub fn copies(&self) -> Option<usize> {
+        self.contents.stated.map(|it| it.copies)
     }
 
     /// Decodes a layer as stored, and passes its runs to `sink`. They cover every pixel of the mask, unless there is an error:

@@ -97,7 +97,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
                 .collect(),
         ),
         pictures: previews.map(Picture::Png).collect(),
-        pose: None,
+        stated: None,
         findings: Vec::new(),
     })
 }

@@ -107,6 +107,15 @@ impl Failure {
         }
     }
 
+    /// The same with another message.
+    pub fn renamed(mut self, rename: impl Fn(&str) -> String) -> Self {
+        self.message = self.message.as_deref().map(&rename);
+        if let Some(problem) = &mut self.problem {
+            problem.message = rename(&problem.message);
+        }
+        self
+    }
+
     pub fn interrupted() -> Self {
         Self {
             exit_code: INTERRUPTED,

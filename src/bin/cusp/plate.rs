@@ -8,12 +8,13 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{Backend, PlatesReport};
 
 use crate::arguments::{Choices, Slicing};
+use crate::budget::Budget;
 use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder};
 use crate::job_file::{Job, JobFile, JobModel, job_file, path_from, read_job};
 use crate::terminal::{Bar, duration, open_gpu_of_plate, print, print_json, warn};
 use crate::usage::{check_json, wrong_usage};
 use crate::values::not_negative;
-use crate::watch::stop_on_interrupt;
+use crate::watch::{keep_within, stop_on_interrupt};
 
 /// How models are arranged.
 #[derive(Args)]
@@ -49,6 +50,8 @@ pub struct Plating {
     #[arg(required = true, value_name = "MODEL[:N]")]
     models: Vec<PathBuf>,
     #[command(flatten)]
+    budget: Budget,
+    #[command(flatten)]
     places: Places,
     /// Where to write the job file, which `cusp slice` and `cusp plan` take in place of models
     #[arg(short, long, value_name = "FILE.json")]
@@ -80,16 +83,24 @@ pub fn job(command: &str, slicing: &Slicing) -> Result<Option<Job>, Failure> {
 }
 
 impl Job {
-    /// A failure of the library, which names models by their numbers.
+    /// A failure of the library, whose message names models by their files in place of their numbers.
     pub fn failure(&self, error: &cusp_slicer::Error) -> Failure {
-        let first = self
-            .paths
-            .first()
-            .map_or(Path::new("plate"), PathBuf::as_path);
-        match &self.paths[..] {
-            [_] => Failure::in_file(first, error),
-            _ => Failure::in_file(Path::new("plate"), error),
-        }
+        let [only] = &self.paths[..] else {
+            return Failure::in_file(Path::new("plate"), error)
+                .renamed(|message| self.named(message));
+        };
+        Failure::in_file(only, error)
+    }
+
+    /// A message with the files of models in place of their numbers.
+    fn named(&self, message: &str) -> String {
+        let names = self.paths.iter().enumerate();
+        // From the last, so that model 12 is not model 1 with a 2.
+        names
+            .rev()
+            .fold(message.to_owned(), |message, (model, path)| {
+                message.replace(&format!("model {}", model + 1), &path.display().to_string())
+            })
     }
 
     pub fn make_plan(&mut self, bar: &Bar) -> Result<PlatesReport, Failure> {
@@ -205,6 +216,7 @@ fn show(job: &Job, slicing: &Slicing, report: &PlatesReport) -> Result<(), Failu
 
 /// Arranges models, and writes the job file.
 pub fn plate(plating: &Plating) -> Result<(), Failure> {
+    keep_within(&plating.budget);
     plating.choices.check("plate");
     let output = plating.output.as_deref();
     let output = output
@@ -218,6 +230,7 @@ pub fn plate(plating: &Plating) -> Result<(), Failure> {
         &plating.places,
         &plating.choices,
     )?;
+    job.plate = plating.budget.bound_plate(std::mem::take(&mut job.plate));
     job.options.placements.clear();
     let placements = job.plate.arrange(&job.options);
     let placements = placements.map_err(|error| job.failure(&error))?;

@@ -10,12 +10,13 @@ use serde::Serialize;
 
 use crate::arguments::Choices;
 use crate::batch::check_inputs;
+use crate::budget::Budget;
 use crate::files::{Failure, in_file, read_json};
 use crate::job_file::{JobFile, job_file, read_job, with_copies};
 use crate::plate::Places;
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, warn};
-use crate::watch::stop_on_interrupt;
+use crate::watch::{keep_within, stop_on_interrupt};
 
 /// Models, and the prices of a shop.
 #[derive(Args)]
@@ -32,6 +33,8 @@ pub struct Pricing {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
+    #[command(flatten)]
+    budget: Budget,
     #[command(flatten)]
     places: Places,
     #[command(flatten)]
@@ -83,6 +86,7 @@ impl<'a> Order<'a> {
 }
 
 pub fn price(pricing: &Pricing) -> Result<(), Failure> {
+    keep_within(&pricing.budget);
     pricing.choices.check("price");
     check_inputs("price", &pricing.models);
     let order = Order::read(&pricing.prices, pricing.finish.as_deref())?;
@@ -119,7 +123,8 @@ impl Pricing {
     fn plan_alone(&self, model: &Path) -> Result<Report, Failure> {
         let (model, _) = with_copies(model);
         let settings = self.choices.settings()?;
-        let mut slicer = settings.reading.load(&model)?;
+        let slicer = settings.reading.load(&model)?;
+        let mut slicer = self.budget.bound(slicer, 1);
         stop_on_interrupt();
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
@@ -128,6 +133,7 @@ impl Pricing {
 
     fn plan_plates(&self, file: Option<JobFile>) -> Result<Vec<Report>, Failure> {
         let mut job = read_job("price", file, &self.models, &self.places, &self.choices)?;
+        job.plate = self.budget.bound_plate(std::mem::take(&mut job.plate));
         stop_on_interrupt();
         Ok(job.make_plan(&Bar::new())?.plates)
     }

@@ -17,7 +17,6 @@ pub struct ClaimedPlate {
     plates: usize,
     models: Vec<ClaimedModel>,
     placements: Vec<Placement>,
-    spacing_mm: f64,
 }
 
 #[derive(Debug, Clone, PartialEq, Deserialize)]
@@ -36,18 +35,27 @@ impl ClaimedPlate {
     /// The job that has only this plate, with the options that the plan claims.
     fn job(&self, options: &Options) -> PlateOptions {
         let count = self.models.iter().map(|model| model.model + 1).max();
-        let mut models = vec![ModelOptions::default(); count.unwrap_or(0)];
+        let absent = ModelOptions {
+            copies: 0,
+            ..ModelOptions::default()
+        };
+        let mut models = vec![absent; count.unwrap_or(0)];
         for model in &self.models {
-            models[model.model] = model.options.clone();
+            let placed = self.placements.iter();
+            models[model.model] = ModelOptions {
+                copies: placed.filter(|it| it.model == model.model).count(),
+                ..model.options.clone()
+            };
         }
         PlateOptions {
             options: options.clone(),
             models,
-            arranging: Arranging {
-                spacing_mm: self.spacing_mm,
-                ..Arranging::default()
-            },
-            placements: self.placements.clone(),
+            arranging: Arranging::default(),
+            placements: self
+                .placements
+                .iter()
+                .map(|place| Placement { plate: 0, ..*place })
+                .collect(),
         }
     }
 }
@@ -74,6 +82,9 @@ impl Plate {
         let report = &mut self.current(0)?.report;
         if let (Some(plate), Some(claimed)) = (&mut report.plate, claimed) {
             (plate.plate, plate.plates) = (claimed.plate, claimed.plates);
+            for place in &mut plate.placements {
+                place.plate = claimed.plate;
+            }
         }
         Ok(report)
     }

@@ -168,6 +168,7 @@ impl Plate {
         progress: &mut StageProgress<'_>,
     ) -> Result<PlatesReport, Error> {
         let last = std::mem::take(&mut self.plates);
+        options.check()?;
         let is_alone = self.models.len() == 1
             && options.of_model(0).copies == 1
             && options.placements.is_empty();

@@ -3,7 +3,7 @@
 use serde::{Deserialize, Serialize};
 
 use super::super::Options;
-use crate::arrange::Arranging;
+use crate::arrange::{ArrangeError, Arranging};
 use crate::plan::HeightRange;
 
 /// How a model of a plate differs from the options of the job, and how often it is printed.
@@ -52,7 +52,8 @@ pub struct Placement {
     /// The plate, from 0.
     #[serde(default)]
     pub plate: usize,
-    /// Position of the model's middle from the middle of the plate, to the right; the nearest whole pixel counts.
+    /// Position of the middle of the box around the turned model from the middle of the plate, to the right; the nearest whole pixel
+    /// counts.
     pub x_mm: f64,
     /// The same to the back.
     pub y_mm: f64,
@@ -77,7 +78,50 @@ pub struct PlateOptions {
     pub placements: Vec<Placement>,
 }
 
+/// Copies in all, of all models.
+const MOST_COPIES: usize = 10_000;
+
 impl PlateOptions {
+    /// Checks that there are not too many copies, and that places are those of the copies that are asked for, plate by plate.
+    pub(in crate::job) fn check(&self) -> Result<(), ArrangeError> {
+        let of_models = self.models.iter().map(|model| model.copies);
+        let copies = of_models
+            .fold(0, usize::saturating_add)
+            .max(self.placements.len());
+        if copies > MOST_COPIES {
+            let most_copies = MOST_COPIES;
+            return Err(ArrangeError::TooManyCopies {
+                copies,
+                most_copies,
+            });
+        }
+        if self.placements.is_empty() {
+            return Ok(());
+        }
+        for (model, own) in self.models.iter().enumerate() {
+            let places = self
+                .placements
+                .iter()
+                .filter(|it| it.model == model)
+                .count();
+            if places != own.copies {
+                return Err(ArrangeError::OtherCopies {
+                    model_number: model + 1,
+                    copies: own.copies,
+                    places,
+                });
+            }
+        }
+        let plates = self.placements.iter().map(|it| it.plate).max().unwrap_or(0);
+        let is_empty = |plate: &usize| !self.placements.iter().any(|it| it.plate == *plate);
+        match (0..plates.min(MOST_COPIES)).find(is_empty) {
+            Some(plate) => Err(ArrangeError::EmptyPlate {
+                plate_number: plate + 1,
+            }),
+            None => Ok(()),
+        }
+    }
+
     /// The options of a model by its index. If it is the only one, they say all that its own say.
     pub(in crate::job) fn of_model(&self, model: usize) -> ModelOptions {
         self.models.get(model).cloned().unwrap_or_default()

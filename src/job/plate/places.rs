@@ -8,7 +8,7 @@ use super::super::prepared::Prepared;
 use super::{Placement, Plate, PlateOptions};
 use crate::Error;
 use crate::arrange::{
-    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems,
+    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems, shadow_mm2,
 };
 use crate::model::{Mesh, Pose, TURNS};
 use crate::order::sort_by_number;
@@ -19,8 +19,9 @@ use crate::parallel;
 pub(super) struct Extent {
     /// In x, y and z.
     pub size_mm: [f64; 3],
-    /// Its shadow on the plate.
+    /// Its shadow on the plate, in cells, and the area of that.
     pub shadow: Outline,
+    pub shadow_mm2: f64,
 }
 
 /// A model in its pose before turns.
@@ -50,6 +51,7 @@ impl Posed<'_> {
             Extent {
                 size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
                 shadow: Outline::of(mesh, screen),
+                shadow_mm2: shadow_mm2(mesh),
             }
         })
     }
@@ -61,6 +63,7 @@ impl Plate {
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
     pub fn arrange(&mut self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
+        options.check()?;
         let job = options.options.resolve()?;
         let screen = screen_of(&job.sampling)?;
         self.prepare_silently(options, &job)?;

@@ -27,8 +27,6 @@ pub struct PlateReport {
     pub models: Vec<PlateModelReport>,
     /// Where each copy stands.
     pub placements: Vec<Placement>,
-    /// Least distance between copies that was asked for, in millimetres.
-    pub spacing_mm: f64,
 }
 
 /// A model on a plate.
@@ -40,7 +38,7 @@ pub struct PlateModelReport {
     pub model: usize,
     /// Its file.
     pub file: ModelFile,
-    /// How it differs from the options of the job.
+    /// How it differs from the options of the job, with its copies on this plate.
     pub options: ModelOptions,
     /// CRC-32 of the user's weights of its facets, if any.
     pub weights_crc32: Option<u32>,
@@ -83,7 +81,7 @@ impl Plate {
             let sampled = &shapes[0].measured.of;
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
-                shadow_mm2: extents[model].shadow.area_mm2,
+                shadow_mm2: extents[model].shadow_mm2,
                 copies: same.len(),
             });
             let parts = shapes
@@ -93,7 +91,10 @@ impl Plate {
             models.push(PlateModelReport {
                 model,
                 file: self.models[model].facts.file.clone(),
-                options: options.of_model(model),
+                options: ModelOptions {
+                    copies: same.len(),
+                    ..options.of_model(model)
+                },
                 weights_crc32: self.models[model].weights_crc32(),
                 copies: same.len(),
                 size_mm: extents[model].size_mm,
@@ -117,7 +118,6 @@ impl Plate {
                 .iter()
                 .map(|place| placement(screen, place))
                 .collect(),
-            spacing_mm: options.arranging.spacing_mm,
         }
     }
 }

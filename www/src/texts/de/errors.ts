@@ -124,6 +124,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Modelle drehen sich in Schritten von 0, 15, 30, 45, 60, 90, 120 oder 180°, nicht ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Modell ${count(model_number)} misst ${exact(size_mm[0])} × ${mm(size_mm[1])}, die Platte ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; skalieren Sie es, oder wählen Sie eine andere Orientierung oder einen anderen Drucker.`,
+  "too-many-copies": ({ copies, most_copies }) =>
+    `${count(copies)} Kopien sind zu viele für einen Auftrag, der höchstens ${count(most_copies)} hat; machen Sie mehrere Aufträge daraus.`,
+  "plate-other-copies": ({ model_number, copies, places }) =>
+    `Modell ${count(model_number)} soll ${count(copies)}-mal gedruckt werden und hat ${count(places)} Plätze; berichtigen Sie eines davon, oder ordnen Sie die Platte an.`,
+  "plate-gap": ({ plate_number }) => `Auf Platte ${count(plate_number)} steht nichts, aber auf einer danach; nummerieren Sie Platten ohne Lücken.`,
   "plate-outside": ({ model_number, copy_number, plate_number }) =>
     `Kopie ${count(copy_number)} von Modell ${count(model_number)} ragt über Platte ${count(plate_number)} hinaus; verschieben Sie sie, oder ordnen Sie die Platte an.`,
   "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>

@@ -125,6 +125,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Models turn in steps of 0, 15, 30, 45, 60, 90, 120 or 180°, not ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Model ${count(model_number)} is ${exact(size_mm[0])} × ${mm(size_mm[1])}, and the plate ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; scale it, or choose another orientation or printer.`,
+  "too-many-copies": ({ copies, most_copies }) =>
+    `${count(copies)} copies are too many for a job, which has ${count(most_copies)} at most; make several jobs of them.`,
+  "plate-other-copies": ({ model_number, copies, places }) =>
+    `Model ${count(model_number)} is to be printed ${count(copies)} times, and has ${count(places)} places; correct one of them, or arrange the plate.`,
+  "plate-gap": ({ plate_number }) => `Nothing stands on plate ${count(plate_number)}, but on one after it; number plates without gaps.`,
   "plate-outside": ({ model_number, copy_number, plate_number }) =>
     `Copy ${count(copy_number)} of model ${count(model_number)} extends beyond plate ${count(plate_number)}; move it, or arrange the plate.`,
   "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>

@@ -123,6 +123,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Los modelos giran en pasos de 0, 15, 30, 45, 60, 90, 120 o 180°, no ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `El modelo ${count(model_number)} mide ${exact(size_mm[0])} × ${mm(size_mm[1])}, y la placa ${exact(plate_mm[0])} × ${mm(plate_mm[1])}; cambie su escala, o elija otra orientación u otra impresora.`,
+  "too-many-copies": ({ copies, most_copies }) =>
+    `${count(copies)} copias son demasiadas para un trabajo, que tiene ${count(most_copies)} como máximo; haga varios trabajos.`,
+  "plate-other-copies": ({ model_number, copies, places }) =>
+    `El modelo ${count(model_number)} debe imprimirse ${count(copies)} veces y tiene ${count(places)} lugares; corrija uno de los dos, o distribuya la placa.`,
+  "plate-gap": ({ plate_number }) => `No hay nada en la placa ${count(plate_number)}, pero sí en una posterior; numere las placas sin huecos.`,
   "plate-outside": ({ model_number, copy_number, plate_number }) =>
     `La copia ${count(copy_number)} del modelo ${count(model_number)} sobresale de la placa ${count(plate_number)}; muévala, o distribuya la placa.`,
   "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>

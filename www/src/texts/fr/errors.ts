@@ -123,6 +123,11 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-turn": ({ turn_deg }) => `Les modèles tournent par pas de 0, 15, 30, 45, 60, 90, 120 ou 180°, et non ${exact(turn_deg)}°.`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `Le modèle ${count(model_number)} mesure ${exact(size_mm[0])} × ${mm(size_mm[1])}, et le plateau ${exact(plate_mm[0])} × ${mm(plate_mm[1])} ; changez son échelle, ou choisissez une autre orientation ou une autre imprimante.`,
+  "too-many-copies": ({ copies, most_copies }) =>
+    `${count(copies)} copies sont trop pour un travail, qui en a ${count(most_copies)} au plus ; faites-en plusieurs travaux.`,
+  "plate-other-copies": ({ model_number, copies, places }) =>
+    `Le modèle ${count(model_number)} doit être imprimé ${count(copies)} fois et a ${count(places)} places ; corrigez l’un des deux, ou disposez le plateau.`,
+  "plate-gap": ({ plate_number }) => `Rien n’est sur le plateau ${count(plate_number)}, mais sur un suivant ; numérotez les plateaux sans lacune.`,
   "plate-outside": ({ model_number, copy_number, plate_number }) =>
     `La copie ${count(copy_number)} du modèle ${count(model_number)} dépasse du plateau ${count(plate_number)} ; déplacez-la, ou disposez le plateau.`,
   "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>

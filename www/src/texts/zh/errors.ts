@@ -121,6 +121,11 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-turn": ({ turn_deg }) => `模型的旋转步长为 0、15、30、45、60、90、120 或 180°，而不是 ${exact(turn_deg)}°。`,
   "plate-too-small": ({ model_number, size_mm, plate_mm }) =>
     `模型 ${count(model_number)} 为 ${exact(size_mm[0])} × ${mm(size_mm[1])}，而平台为 ${exact(plate_mm[0])} × ${mm(plate_mm[1])}；请缩小它，或选择其他朝向或打印机。`,
+  "too-many-copies": ({ copies, most_copies }) =>
+    `一个任务最多 ${count(most_copies)} 个副本，${count(copies)} 个太多；请分成几个任务。`,
+  "plate-other-copies": ({ model_number, copies, places }) =>
+    `模型 ${count(model_number)} 要打印 ${count(copies)} 次，却有 ${count(places)} 个位置；请更正其中之一，或排列平台。`,
+  "plate-gap": ({ plate_number }) => `平台 ${count(plate_number)} 上没有模型，之后的平台上却有；请连续编号。`,
   "plate-outside": ({ model_number, copy_number, plate_number }) =>
     `模型 ${count(model_number)} 的第 ${count(copy_number)} 个副本超出了平台 ${count(plate_number)}；请移动它，或排列平台。`,
   "plate-collision": ({ model_numbers, copy_numbers, plate_number }) =>
