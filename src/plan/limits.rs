@@ -114,7 +114,7 @@ impl Limits {
     /// A range of layer thicknesses in units: ⌈`t_min`/unit⌉ to ⌊`t_max`/unit⌋.
     ///
     /// # Errors
-    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::EmptyRange`].
+    /// [`PlanError::Quantity`], [`PlanError::NotWholeBins`], [`PlanError::UpsideDownRange`], [`PlanError::EmptyRange`].
     pub fn thickness(
         &self,
         bins: Bins,
@@ -123,6 +123,12 @@ impl Limits {
     ) -> Result<RangeInclusive<u32>, PlanError> {
         Quantity::LayerMin.check(layer_min_mm)?;
         Quantity::LayerMax.check(layer_max_mm)?;
+        if layer_min_mm > layer_max_mm {
+            return Err(PlanError::UpsideDownRange {
+                layer_min_mm,
+                layer_max_mm,
+            });
+        }
         let unit = f64::from(self.unit(bins)?);
         let units = Bins {
             count: bins.count,

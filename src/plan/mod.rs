@@ -33,6 +33,17 @@ use segment::{Segment, boundaries_below};
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]
 pub enum PlanError {
+    /// The least layer thickness is more than the greatest, as where only one of them is given and the other has its default.
+    #[error(
+        "the least layer thickness of {layer_min_mm} mm is more than the greatest of {layer_max_mm} mm; lower one or raise the other"
+    )]
+    #[serde(rename = "layer-range-upside-down")]
+    UpsideDownRange {
+        /// Least layer thickness.
+        layer_min_mm: f64,
+        /// Greatest layer thickness.
+        layer_max_mm: f64,
+    },
     /// The layer range holds no whole number of steps.
     #[error(
         "no whole number of steps of {step_mm} mm lies between the layer thicknesses \

@@ -31,7 +31,7 @@ fn options_that_no_model_could_make_good_are_refused_before_sampling() {
                 layer_min_mm: Some(0.2),
                 ..options()
             },
-            "layer-range-empty",
+            "layer-range-upside-down",
         ),
         (
             Options {

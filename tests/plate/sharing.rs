@@ -304,7 +304,7 @@ fn height_ranges_of_models_are_joined() {
     }
     options.models[1].ranges = vec![range(3.0, 6.0, 0.12, 0.15)];
     let refused = plan(&mut both, &options).unwrap_err();
-    assert_eq!(refused.code(), "layer-range-empty");
+    assert_eq!(refused.code(), "layer-range-upside-down");
 }
 
 #[test]

@@ -179,6 +179,7 @@ fn ldi_errors() -> Vec<LdiError> {
 
 fn plan_errors() -> Vec<PlanError> {
     one_of_each!(PlanError except [Quantity]:
+        UpsideDownRange { layer_min_mm: 0.05, layer_max_mm: 0.04 },
         EmptyRange { layer_min_mm: 0.051, layer_max_mm: 0.053, step_mm: 0.01 },
         NotWholeBins { quantity: Quantity::Step, length_mm: 0.013, bin_mm: 0.002 },
         NotWholeSteps { quantity: Quantity::FirstLayer, length_mm: 0.205, step_mm: 0.01 },

@@ -122,6 +122,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-turn": "badValue",
   "not-whole-bins": "notWhole",
   "not-whole-steps": "notWhole",
+  "layer-range-upside-down": "rangeEmpty",
   "layer-range-empty": "rangeEmpty",
   "layer-too-thick": "layerTooThick",
   "layers-do-not-fit": "doNotFit",

@@ -141,6 +141,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${QUANTITIES[quantity]} von ${mm(length_mm)} ist keine ganze Zahl von Intervallen zu ${mm(bin_mm)}; wählen Sie ein Intervall, das darin aufgeht.`,
   "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
     `${QUANTITIES[quantity]} von ${mm(length_mm)} ist keine ganze Zahl von Schritten zu ${mm(step_mm)}; wählen Sie ein Vielfaches von ${mm(step_mm)}.`,
+  "layer-range-upside-down": ({ layer_min_mm, layer_max_mm }) =>
+    `Die kleinste Schichtdicke von ${mm(layer_min_mm)} ist mehr als die größte von ${mm(layer_max_mm)}; verringern Sie die eine, oder erhöhen Sie die andere.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `Keine ganze Zahl von Schritten zu ${mm(step_mm)} liegt zwischen den Schichtdicken ${exact(layer_min_mm)} und ${mm(layer_max_mm)}; ` +
     "erweitern Sie den Bereich, oder wählen Sie einen kleineren Schritt.",

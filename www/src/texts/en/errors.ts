@@ -141,6 +141,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of bins of ${mm(bin_mm)}; choose a bin that divides it.`,
   "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
     `${QUANTITIES[quantity]} of ${mm(length_mm)} is no whole number of steps of ${mm(step_mm)}; choose a multiple of ${mm(step_mm)}.`,
+  "layer-range-upside-down": ({ layer_min_mm, layer_max_mm }) =>
+    `The least layer thickness of ${mm(layer_min_mm)} is more than the greatest of ${mm(layer_max_mm)}; lower one or raise the other.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `No whole number of steps of ${mm(step_mm)} lies between the layer thicknesses ${exact(layer_min_mm)} and ${mm(layer_max_mm)}; ` +
     "widen the range or choose a smaller step.",

@@ -140,6 +140,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${QUANTITIES[quantity]} de ${mm(length_mm)} no es un número entero de intervalos de ${mm(bin_mm)}; elija un intervalo que lo divida.`,
   "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
     `${QUANTITIES[quantity]} de ${mm(length_mm)} no es un número entero de pasos de ${mm(step_mm)}; elija un múltiplo de ${mm(step_mm)}.`,
+  "layer-range-upside-down": ({ layer_min_mm, layer_max_mm }) =>
+    `El espesor de capa mínimo de ${mm(layer_min_mm)} supera al máximo de ${mm(layer_max_mm)}; reduzca uno o aumente el otro.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `Ningún número entero de pasos de ${mm(step_mm)} está entre los espesores ${exact(layer_min_mm)} y ${mm(layer_max_mm)}; ` +
     "amplíe el intervalo o elija un paso más pequeño.",

@@ -140,6 +140,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `${QUANTITIES[quantity]} de ${mm(length_mm)} n’est pas un nombre entier d’intervalles de ${mm(bin_mm)} ; choisissez un intervalle qui le divise.`,
   "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
     `${QUANTITIES[quantity]} de ${mm(length_mm)} n’est pas un nombre entier de pas de ${mm(step_mm)} ; choisissez un multiple de ${mm(step_mm)}.`,
+  "layer-range-upside-down": ({ layer_min_mm, layer_max_mm }) =>
+    `L’épaisseur de couche minimale de ${mm(layer_min_mm)} dépasse la maximale de ${mm(layer_max_mm)} ; réduisez l’une ou augmentez l’autre.`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `Aucun nombre entier de pas de ${mm(step_mm)} n’est entre les épaisseurs ${exact(layer_min_mm)} et ${mm(layer_max_mm)} ; ` +
     "élargissez l’intervalle ou choisissez un pas plus petit.",

@@ -137,6 +137,8 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
     `${QUANTITIES[quantity]} ${mm(length_mm)} 不是区间 ${mm(bin_mm)} 的整数倍；请选择能整除它的区间。`,
   "not-whole-steps": ({ quantity, length_mm, step_mm }) =>
     `${QUANTITIES[quantity]} ${mm(length_mm)} 不是步距 ${mm(step_mm)} 的整数倍；请选择 ${mm(step_mm)} 的倍数。`,
+  "layer-range-upside-down": ({ layer_min_mm, layer_max_mm }) =>
+    `最小层厚 ${mm(layer_min_mm)} 大于最大层厚 ${mm(layer_max_mm)}；请减小前者或增大后者。`,
   "layer-range-empty": ({ layer_min_mm, layer_max_mm, step_mm }) =>
     `层厚 ${exact(layer_min_mm)} 与 ${mm(layer_max_mm)} 之间没有整数个 ${mm(step_mm)} 的步距；请扩大范围，或选择更小的步距。`,
   "layer-too-thick": ({ layer_mm, height_mm }) => `${mm(layer_mm)} 的层对高 ${mm(height_mm)} 的模型来说太厚。`,
