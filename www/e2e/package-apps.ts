@@ -83,8 +83,8 @@ export interface Ran {
   globals: string[];
 }
 
-/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` inspects the result. */
-export async function visit(browser: Browser, served: Served, look: (ran: Ran) => Promise<void>): Promise<void> {
+/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` inspects the result; `others` may be fetched from as well. */
+export async function visit(browser: Browser, served: Served, look: (ran: Ran) => Promise<void>, others: readonly string[] = []): Promise<void> {
   const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 } });
   const page = await context.newPage();
   const complaints: string[] = [];
@@ -94,7 +94,7 @@ export async function visit(browser: Browser, served: Served, look: (ran: Ran) =
   });
   page.on("request", (request) => {
     const address = request.url();
-    if (!address.startsWith(served.address) && !address.startsWith("blob:")) complaints.push(address);
+    if (![served.address, "blob:", ...others].some((start) => address.startsWith(start))) complaints.push(address);
   });
   await page.addInitScript(() => {
     const before = new Set(Object.getOwnPropertyNames(window));

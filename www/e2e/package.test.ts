@@ -7,10 +7,10 @@ import { build, createServer, type InlineConfig } from "vite";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import webpack from "webpack";
 import { launch } from "./browser.js";
-import { snippets, visit, workplace, write, www, type Workplace } from "./package-apps.js";
+import { snippets, visit, workplace, write, www, type Ran, type Workplace } from "./package-apps.js";
 import { freePort, type Served } from "./serve.js";
 import { sphere } from "./solids.js";
-import { serveFolder } from "./static.js";
+import { ALLOW_ALL, policyFor, serveFolder } from "./static.js";
 
 const compiler = join(www, "node_modules/typescript/bin/tsc");
 
@@ -34,13 +34,25 @@ async function consumer(name: string, module: string): Promise<string> {
   return work.app(name, { "index.html": (await read("index.html")).replace("./main.js", module), "src/main.js": await read("main.js") });
 }
 
-async function works(folder: string, ownGlobals: (name: string) => boolean = () => false): Promise<void> {
+/** @param others an origin that the page has its scripts from, in place of its own */
+async function works(folder: string, ownGlobals: (name: string) => boolean = () => false, others?: Served): Promise<void> {
   await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
-  await visit(browser, await serveFolder(folder), async ({ page, globals }) => {
+  const policy = others === undefined ? undefined : policyFor(new URL(others.address).origin, "blob:");
+  const look = async ({ page, globals }: Ran): Promise<void> => {
     const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
     expect(await headless.getAttribute("data-headless")).toMatch(/^2 ball.stl \d{3} (cpu|gpu) true$/);
     expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
-  });
+  };
+  await visit(browser, await serveFolder(folder, policy), look, others === undefined ? [] : [others.address]);
+}
+
+/** The same for the page of a folder alone, with everything else served from another origin. */
+async function worksApart(folder: string, others: Served, ownGlobals?: (name: string) => boolean): Promise<void> {
+  const html = await readFile(join(folder, "index.html"), "utf8");
+  const page = `${folder}-page`;
+  await write(page, { "index.html": html.replace("./main.js", `${others.address}main.js`) });
+  await works(page, ownGlobals, others);
+  await others.close();
 }
 
 /** Builds an app in a folder of the workplace by its own configuration. Not minified, to save time. */
@@ -111,8 +123,10 @@ test("its types hold where nothing else is installed, in the markup of each fram
   }
 });
 
-test("built by Vite", async () => {
-  await works(await vite(await consumer("vite", "/src/main.js")));
+test("built by Vite, with a base on another origin", async () => {
+  const root = await consumer("vite", "/src/main.js");
+  const others = await serveFolder(join(root, "dist"), "", ALLOW_ALL);
+  await worksApart(await vite(root, { base: others.address }), others);
 });
 
 test("the guide's component for React, on Vite's development server, which bundles packages beforehand", async () => {
@@ -125,7 +139,7 @@ test("the guide's component for React, on Vite's development server, which bundl
   await priced({ address, close: () => server.close() });
 });
 
-test("built by webpack", async () => {
+test("built by webpack, with its scripts on the page's origin and on another", async () => {
   const context = await consumer("webpack", "./main.js");
   const path = join(context, "dist");
   const compilation = webpack({
@@ -143,7 +157,9 @@ test("built by webpack", async () => {
   expect(stats?.toJson({ all: false, errors: true, warnings: true })).toMatchObject({ errors: [], warnings: [] });
   await cp(join(context, "index.html"), join(path, "index.html"));
   // webpack keeps track of its own chunks in one global.
-  await works(path, (name) => name.startsWith("webpackChunk"));
+  const isOwn = (name: string): boolean => name.startsWith("webpackChunk");
+  await works(path, isOwn);
+  await worksApart(path, await serveFolder(path, "", ALLOW_ALL), isOwn);
 });
 
 test("built by esbuild, with the commands of the guide", async () => {

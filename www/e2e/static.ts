@@ -8,6 +8,13 @@ import type { Served } from "./serve.js";
 /** What the element needs of a page's policy, and nothing more: see docs/embed.md. */
 export const ELEMENT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
 
+/** The same where the package is on another origin, whose worker starts from a `blob:` or, in a sandboxed frame, from a `data:`. */
+export const policyFor = (origin: string, start: "blob:" | "data:"): string =>
+  `default-src 'none'; script-src 'self' ${origin} 'wasm-unsafe-eval'; worker-src ${start} ${origin}; connect-src 'self' ${origin}`;
+
+/** Allows other origins to use what is served. */
+export const ALLOW_ALL = { "access-control-allow-origin": "*" } as const;
+
 const TYPES: Readonly<Record<string, string>> = {
   ".html": "text/html",
   ".js": "text/javascript",
@@ -16,7 +23,7 @@ const TYPES: Readonly<Record<string, string>> = {
   ".wasm": "application/wasm",
 };
 
-export async function serveFolder(folder: string, policy = ELEMENT_POLICY): Promise<Served> {
+export async function serveFolder(folder: string, policy = ELEMENT_POLICY, headers: Readonly<Record<string, string>> = {}): Promise<Served> {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://localhost");
     // The browser requests it by itself; a page's own icon does not matter here.
@@ -25,7 +32,7 @@ export async function serveFolder(folder: string, policy = ELEMENT_POLICY): Prom
     stat(path).then(
       () => {
         const type = TYPES[extname(path)] ?? "application/octet-stream";
-        response.writeHead(200, { "content-type": type, "content-security-policy": policy });
+        response.writeHead(200, { "content-type": type, "content-security-policy": policy, ...headers });
         createReadStream(path).pipe(response);
       },
       () => response.writeHead(404).end(),

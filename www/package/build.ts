@@ -44,7 +44,7 @@ const WASM = "cusp_slicer_bg.wasm";
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
-    filter: { id: /src\/api\/(calls|worker)\.ts$/ },
+    filter: { id: /src\/api\/spawn\.ts$/ },
     handler: (code) => code.replace(`"../../pkg/${WASM}"`, `"./${WASM}"`).replace(`"./worker.ts"`, `"./worker.js"`),
   },
 };

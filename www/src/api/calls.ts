@@ -4,10 +4,9 @@
  * WebAssembly cannot be interrupted, so cancelling terminates the worker, and the next call starts another. What a worker holds
  * is up to the client of these calls, which restores what it needs in a fresh one.
  */
-import * as Comlink from "comlink";
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
-import { listenTo, told, untold } from "./told.js";
-import type { OnProgress, Remote, SlicerWorker } from "./wire.js";
+import { told, untold } from "./told.js";
+import type { OnProgress, Remote } from "./wire.js";
 
 export type { Remote };
 
@@ -27,25 +26,14 @@ export interface Watch {
   onProgress?: OnProgress | undefined;
 }
 
-export function spawnWorker(): WorkerHandle {
-  const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-slicer" });
-  listenTo(worker);
-  return {
-    remote: Comlink.wrap<SlicerWorker>(worker),
-    terminate: () => worker.terminate(),
-    onBroken: (callback) => {
-      worker.addEventListener("error", (event) => callback(event.message || "the worker could not be started"));
-      worker.addEventListener("messageerror", () => callback("a message could not be read"));
-    },
-  };
-}
-
 /** For calls whose progress nobody wants to know. */
 export const silent: OnProgress = told(() => undefined);
 
 /** Holds the compiled module, which all clients share. */
 export interface Compiled {
   module: WebAssembly.Module | null;
+  /** Where the first worker fetches it. */
+  readonly address: string;
 }
 
 /** A running worker. */
@@ -162,8 +150,8 @@ export class Calls<Held> {
         answer.then(resolve, reject).finally(() => waiting.delete(reject));
       });
     let started = false;
-    handle.onBroken((message) => end(broke(started ? "crash" : "start-failed", message)));
-    const booted = handle.remote.boot(this.#compiled.module).then(
+    handle.onBroken((message) => end(broke(started ? "crash" : "worker-failed", message)));
+    const booted = handle.remote.boot(this.#compiled.module ?? this.#compiled.address).then(
       (module) => {
         started = true;
         this.#compiled.module = module;
@@ -196,7 +184,8 @@ export const idle = (): Promise<unknown> => new Promise((resolve) => (globalThis
 
 export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
 
-function broke(code: "crash" | "start-failed", cause: unknown): SlicerError {
+/** The error for a worker that does not answer as it should. */
+export function broke(code: "crash" | "start-failed" | "worker-failed", cause: unknown): SlicerError {
   const system = said(cause);
   return new SlicerError(code, system, { system });
 }

@@ -22,7 +22,7 @@ class FakeWorker implements WorkerHandle {
   readonly remote: SlicerWorker = {
     ...fakePlate((what) => this.#work(what)),
     boot: async (module) => {
-      this.#say(module === null ? "boot, compiling" : "boot");
+      this.#say(typeof module === "string" ? "boot, compiling" : "boot");
       return {};
     },
     rehearse: async () => this.#say("rehearse"),
@@ -103,7 +103,7 @@ class Caller {
   about: About = Promise.resolve(null);
 
   constructor(spawn: () => WorkerHandle) {
-    this.client = new Client(spawn);
+    this.client = new Client(spawn, { module: null, address: "" });
   }
 
   open(blob: Blob, watch: Watch): Promise<Opened> {
@@ -264,6 +264,25 @@ test("a core that does not start rejects with start-failed, and the next call tr
   });
   failing.client.warm();
   await expect(failing.open(new Blob(["a"]), watch())).rejects.toMatchObject({ code: "start-failed", message: "HTTP 404" });
+  await failing.open(new Blob(["a"]), watch());
+  expect(log).toEqual(["2: boot, compiling", "2: open a"]);
+});
+
+test("a worker that is refused, or whose script cannot be loaded, rejects with worker-failed, and the next call tries again", async () => {
+  let starts = 0;
+  const failing = new Caller(() => {
+    starts += 1;
+    if (starts < 3) throw new SlicerError("worker-failed", "SecurityError", { system: "SecurityError" });
+    const handle = new FakeWorker();
+    if (starts === 3) handle.remote.boot = () => new Promise(() => undefined);
+    return handle;
+  });
+  failing.client.warm();
+  await expect(failing.open(new Blob(["a"]), watch())).rejects.toMatchObject({ code: "worker-failed", message: "SecurityError" });
+  const opened = failing.open(new Blob(["a"]), watch());
+  await expect.poll(() => workers).toHaveLength(1);
+  worker(1).broken("no script");
+  await expect(opened).rejects.toMatchObject({ code: "worker-failed", message: "no script" });
   await failing.open(new Blob(["a"]), watch());
   expect(log).toEqual(["2: boot, compiling", "2: open a"]);
 });

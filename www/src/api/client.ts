@@ -5,7 +5,7 @@
  * its subject and options, and replayed when a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
-import { Calls, silent, spawnWorker, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { told, untold } from "./told.js";
@@ -57,7 +57,7 @@ export class Client {
   #planned: Planned | null = null;
 
   /** @param helpers so many workers encode layers of its print files: `help` has one of them do so */
-  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }, helpers = 0, help: Help = () => Promise.resolve(null)) {
+  constructor(spawn: () => WorkerHandle, compiled: Compiled, helpers = 0, help: Help = () => Promise.resolve(null)) {
     this.#helpers = helpers;
     this.#help = help;
     this.#calls = new Calls(spawn, compiled, () => ({ file: null, weights: null, planned: null }));
@@ -65,7 +65,7 @@ export class Client {
 
   /** Starts the worker before it is needed, and has it compile what a plan needs. The first real call reports a failure. */
   warm(): void {
-    void this.#calls.warm(async ({ handle }) => handle.remote.rehearse());
+    this.#calls.warm(async ({ handle }) => handle.remote.rehearse()).catch(() => undefined);
   }
 
   /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */

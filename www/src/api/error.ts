@@ -14,7 +14,9 @@ interface OwnDetails {
   "printer-not-json": SystemDetail;
   /** The model's URL returned an HTTP error, or could not be reached. */
   "fetch-failed": { status: number } | SystemDetail;
-  /** The worker or the WebAssembly module could not be started. */
+  /** The worker could not be started: its script is missing or cannot be reached, or the page's policy or the browser refuses it. */
+  "worker-failed": SystemDetail;
+  /** The WebAssembly module could not be started. */
   "start-failed": SystemDetail;
   /** A part of the element that is fetched when first shown could not be loaded; the rest of the element stays. */
   "part-failed": SystemDetail & { part: string };

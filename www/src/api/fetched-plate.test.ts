@@ -10,7 +10,7 @@ function plateOver(log: string[]): RunningPlate {
     const remote = { boot: async () => ({}), ...fakePlate(async (what) => void log.push(what)) } as unknown as SlicerWorker;
     return { remote, terminate: () => undefined, onBroken: () => undefined };
   };
-  return createPlate(spawn, { module: null });
+  return createPlate(spawn, { module: null, address: "" });
 }
 
 test("calls that are made before the code is there keep their order", async () => {

@@ -14,7 +14,7 @@
  * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import { spawnWorker, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
+import type { Compiled, WorkerHandle, Watch } from "./calls.js";
 import { Client, type About, type Wanted } from "./client.js";
 import { measure, orient, type OrientCall } from "./orient.js";
 import type { Helpers } from "./helpers.js";
@@ -24,6 +24,7 @@ import { Pool } from "./pool.js";
 import type { Ordered } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
+import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
 import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
@@ -170,6 +171,11 @@ export interface Setup {
   spawn?: () => WorkerHandle;
   /** The most workers that an orientation search or a print file may use; by default the number of cores. */
   workers?: number;
+  /**
+   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page, for builds that leave them elsewhere than a
+   * bundler would. A function is asked whenever a worker starts.
+   */
+  assets?: Assets | (() => Assets);
 }
 
 /** The default number of points on a trade-off curve. */
@@ -182,9 +188,16 @@ const MOST_HELPERS = 3;
 const FEW_WORKERS = 2;
 
 export function createSlicer(setup: Setup = {}): Slicer {
-  const { spawn = spawnWorker, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
-  if (spawn === spawnWorker && globalThis.Worker === undefined) return absentSlicer();
-  const compiled: Compiled = { module: null };
+  const { assets = null, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
+  if (setup.spawn === undefined && globalThis.Worker === undefined) return absentSlicer();
+  const folder = typeof assets === "function" ? assets : (): Assets => assets;
+  const spawn = setup.spawn ?? ((): WorkerHandle => spawnWorker(folder()));
+  const compiled: Compiled = {
+    module: null,
+    get address() {
+      return wasmAddress(folder());
+    },
+  };
   const client = (): Client => new Client(spawn, compiled);
   const most = Math.max(0, Math.min(MOST_HELPERS, workers - 1));
   /** Fetched with the first print file. */

@@ -4,7 +4,7 @@
  * Each call carries its models, with their weights, as they were when it was made. The last successful plan is kept with its models
  * and options, and replayed when a fresh worker is asked for its masks.
  */
-import { Calls, silent, spawnWorker, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, silent, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
 import type { ModelFile, Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
@@ -40,7 +40,7 @@ export class PlateClient {
   readonly #calls: Calls<Held>;
   #planned: PlannedPlates | null = null;
 
-  constructor(spawn: () => WorkerHandle = spawnWorker, compiled: Compiled = { module: null }) {
+  constructor(spawn: () => WorkerHandle, compiled: Compiled) {
     this.#calls = new Calls(spawn, compiled, () => ({ models: [], planned: null }));
   }
 

@@ -26,7 +26,7 @@ beforeEach(() => {
     const remote = { boot: async () => ({}), ...fakePlate(work), price } as unknown as SlicerWorker;
     return { remote, terminate: () => log.push(`${number}: ended`), onBroken: () => undefined };
   };
-  plate = createPlate(spawn, { module: null });
+  plate = createPlate(spawn, { module: null, address: "" });
 });
 
 const file = (text: string): Blob => new Blob([text]);

@@ -29,7 +29,7 @@ function current(): Slicer {
   return slicer;
 }
 
-async function compile(address: URL): Promise<WebAssembly.Module> {
+async function compile(address: string): Promise<WebAssembly.Module> {
   const response = await fetch(address);
   if (!response.ok) throw new Error(`the slicer could not be loaded (HTTP ${response.status})`);
   // Streaming needs the right content type, which plain file hosts do not always send.
@@ -133,8 +133,7 @@ const api: Remote = {
   ...plateApi,
   async boot(module) {
     endUpperHalves();
-    // Bundlers recognise this exact form and emit the file.
-    const compiled = module ?? (await compile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)));
+    const compiled = typeof module === "string" ? await compile(module) : module;
     core = await init({ module_or_path: compiled });
     return compiled;
   },

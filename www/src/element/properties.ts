@@ -13,7 +13,7 @@ import type { Settings } from "./state/settings.js";
 /** A property that is also an attribute. */
 interface Attribute {
   readonly attribute: string;
-  /** Reads and checks a value; absent for a URL, which is checked when it is opened. */
+  /** Reads and checks a value; absent for a URL, which is checked when it is fetched. */
   readonly read?: Reader<unknown>;
   /** The setting that it sets. */
   readonly sets?: keyof Settings;
@@ -58,6 +58,7 @@ const ATTRIBUTE_PROPERTIES = {
   panels: { attribute: "panels", read: someOf(PANELS) },
   backend: { attribute: "backend", read: oneOf(BACKENDS) },
   gpuMethod: { attribute: "gpu-method", read: oneOf(GPU_METHODS) },
+  assets: { attribute: "assets" },
 } as const satisfies Attributes;
 
 export const ATTRIBUTES = byAttribute(ATTRIBUTE_PROPERTIES);

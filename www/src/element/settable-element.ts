@@ -13,7 +13,7 @@ import { fromAddress, parse, toAddress } from "./state/settings.js";
 
 export abstract class SettableElement extends LitElement {
   /** The headless slicer behind the element; a page may call it for more than the element shows. */
-  readonly slicer: Slicer = createSlicer();
+  readonly slicer: Slicer = createSlicer({ assets: () => this.assets });
   /** @internal */
   protected readonly reports: Reports = new Reports(this, {
     isCurrent: () => this.session.isCurrent,
@@ -34,6 +34,12 @@ export abstract class SettableElement extends LitElement {
   protected get shownPanels(): ReadonlySet<Panel> {
     return new Set(this.#panels ?? PANELS);
   }
+
+  /**
+   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page; null: they are where a bundler has put
+   * them. It counts whenever a worker starts.
+   */
+  assets: string | null = null;
 
   /** BCP 47 language tag; if null, the nearest `lang`, then the browser's languages. */
   get locale(): string | null {

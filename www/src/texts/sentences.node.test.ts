@@ -26,6 +26,7 @@ const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   "file-unreadable": null,
   "printer-not-json": { system: "Unexpected end of JSON input" },
   "fetch-failed": { status: 404 },
+  "worker-failed": { system: "https://cdn.test/worker.js could not be loaded" },
   "start-failed": { system: "no WebAssembly" },
   "part-failed": { part: "view", system: "404" },
   "no-browser": null,

@@ -33,7 +33,7 @@ beforeEach(() => {
     const remote = { boot: async () => ({}), ...fake, planPlate, plateProblems } as unknown as SlicerWorker;
     return { remote, terminate: () => undefined, onBroken: () => undefined };
   };
-  slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null }) });
+  slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null, address: "" }) });
   const host = {
     changed: () => undefined,
     changing: (kind: string | null) => void (kind !== null && steps.push(kind)),

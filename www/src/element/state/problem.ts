@@ -146,6 +146,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "file-unreadable": "unreadable",
   "fetch-failed": "notFetched",
   "start-failed": "startFailed",
+  "worker-failed": "startFailed",
   crash: "crash",
   "part-failed": "other",
   "no-browser": "other",

@@ -20,7 +20,7 @@ import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import { DEFAULT_SETTINGS, rotationText } from "./settings.js";
 
 /** Failures that another try may not meet again. */
-const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed"]);
+const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed", "worker-failed"]);
 
 export class Session extends Models {
   result: Result | null = null;

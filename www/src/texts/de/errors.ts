@@ -216,6 +216,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-unreadable": () => "Vielleicht wurde die Datei verschoben, geändert oder gesperrt. Wählen Sie sie noch einmal.",
   "fetch-failed": (detail) =>
     "status" in detail ? `Unter dieser Adresse kam keine Datei (HTTP ${detail.status}).` : `Die Adresse hat nicht geantwortet (${detail.system}).`,
+  "worker-failed": ({ system }) =>
+    `Laden Sie die Seite neu. Hilft das nicht, sagen Sie es ihrem Betreiber: Ein Skript fehlt, oder die Richtlinie der Seite verbietet den Worker. (${system})`,
   "start-failed": ({ system }) => `Laden Sie die Seite neu. Hilft das nicht, ist dieser Browser vielleicht zu alt für WebAssembly. (${system})`,
   crash: ({ system }) =>
     `Vielleicht reichte der Speicher nicht. Er ist neu gestartet: Versuchen Sie es noch einmal, bei einem großen Modell mit weniger Strahlen. (${system})`,

@@ -216,6 +216,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-unreadable": () => "Quizá se movió, cambió o está bloqueado. Elíjalo de nuevo.",
   "fetch-failed": (detail) =>
     "status" in detail ? `En esa dirección no había un archivo (HTTP ${detail.status}).` : `La dirección no respondió (${detail.system}).`,
+  "worker-failed": ({ system }) =>
+    `Recargue la página. Si no ayuda, avise a quien la administra: falta un script, o la política de la página no permite el worker. (${system})`,
   "start-failed": ({ system }) =>
     `Recargue la página. Si no ayuda, quizá este navegador es demasiado antiguo para WebAssembly. (${system})`,
   crash: ({ system }) =>

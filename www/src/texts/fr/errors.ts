@@ -217,6 +217,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "file-unreadable": () => "Il a peut-être été déplacé, modifié ou verrouillé. Choisissez-le à nouveau.",
   "fetch-failed": (detail) =>
     "status" in detail ? `Aucun fichier à cette adresse (HTTP ${detail.status}).` : `L’adresse n’a pas répondu (${detail.system}).`,
+  "worker-failed": ({ system }) =>
+    `Rechargez la page. Sinon, prévenez son responsable : un script manque, ou la politique de la page interdit le worker. (${system})`,
   "start-failed": ({ system }) => `Rechargez la page. Sinon, ce navigateur est peut-être trop ancien pour WebAssembly. (${system})`,
   crash: ({ system }) =>
     `La mémoire a peut-être manqué. Il a redémarré : réessayez, avec moins de rayons si le modèle est grand. (${system})`,

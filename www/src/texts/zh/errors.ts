@@ -204,6 +204,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "file-unreadable": () => "文件可能已被移动、更改或锁定。请重新选择。",
   "fetch-failed": (detail) =>
     "status" in detail ? `该地址没有返回文件（HTTP ${detail.status}）。` : `该地址没有回应（${detail.system}）。`,
+  "worker-failed": ({ system }) => `请重新加载页面。若无效，请告知网站管理员：缺少脚本，或页面的策略不允许该 worker。（${system}）`,
   "start-failed": ({ system }) => `请重新加载页面。若无效，此浏览器可能过旧，不支持 WebAssembly。（${system}）`,
   crash: ({ system }) => `可能内存不足。程序已重新启动：请再试一次，模型较大时请减少光线。（${system}）`,
 });

@@ -1,0 +1,131 @@
+/** The package on another origin than the page, as from a CDN, and workers that cannot start. */
+import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
+import { join } from "node:path";
+import type { Browser, Page } from "playwright-core";
+import { afterAll, afterEach, beforeAll, expect, test } from "vitest";
+import type * as Api from "../src/api/index.js";
+import { launch } from "./browser.js";
+import { builtPackage } from "./built.js";
+import type { Served } from "./serve.js";
+import { sphere } from "./solids.js";
+import { ALLOW_ALL, policyFor, serveFolder } from "./static.js";
+
+declare global {
+  interface Window {
+    api: typeof Api;
+  }
+}
+
+const TRUSTED_TYPES = "require-trusted-types-for 'script'; trusted-types cusp lit-html";
+
+let browser: Browser;
+let page: Page;
+/** The package, on an origin that lets others use it. */
+let cdn: Served;
+let origin: string;
+/** The same, on an origin that does not, and on one that serves scripts as pages. */
+let closed: Served;
+let mistyped: Served;
+let folder: string;
+const closing: (() => Promise<void>)[] = [];
+
+beforeAll(async () => {
+  const packed = await builtPackage();
+  cdn = await serveFolder(packed, "", ALLOW_ALL);
+  ({ origin } = new URL(cdn.address));
+  closed = await serveFolder(packed, "");
+  mistyped = await serveFolder(packed, "", { ...ALLOW_ALL, "content-type": "text/html" });
+  folder = await mkdtemp(join(tmpdir(), "cusp-origins-"));
+  await writeFile(join(folder, "ball.stl"), sphere(10, 48).bytes);
+  await writeFile(
+    join(folder, "index.html"),
+    `<!doctype html><meta charset="utf-8" /><title>Shop</title><script type="module" src="${cdn.address}element.js"></script>
+    <script type="module" src="main.js"></script><cusp-slicer assets="${cdn.address}" src="ball.stl"></cusp-slicer>`,
+  );
+  await writeFile(join(folder, "main.js"), `window.api = await import("${cdn.address}index.js");`);
+  await writeFile(join(folder, "frame.html"), `<!doctype html><title>Frame</title><iframe sandbox="allow-scripts" src="./"></iframe>`);
+  browser = await launch();
+}, 120_000);
+
+afterAll(async () => {
+  await browser.close();
+  await Promise.all([cdn.close(), closed.close(), mistyped.close(), rm(folder, { recursive: true })]);
+});
+
+afterEach(async () => {
+  await page.context().close();
+  for (const close of closing.splice(0)) await close();
+});
+
+/** Opens a page of another origin under a policy. Returns what it complains of. */
+async function open(path: string, policy: string): Promise<string[]> {
+  const shop = await serveFolder(folder, policy, ALLOW_ALL);
+  closing.push(() => shop.close());
+  page = await (await browser.newContext({ locale: "en-GB" })).newPage();
+  const complaints: string[] = [];
+  page.on("pageerror", (error) => complaints.push(error.message));
+  page.on("console", (message) => {
+    if (message.type() === "error") complaints.push(message.text());
+  });
+  await page.goto(shop.address + path);
+  return complaints;
+}
+
+test("the element and the headless slicer come from another origin, under a strict policy with Trusted Types", async () => {
+  const complaints = await open("", `${policyFor(origin, "blob:")}; ${TRUSTED_TYPES}`);
+  await page.waitForSelector("cusp-slicer[state=done]");
+  const layers = await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    const { report } = await slicer.plan({ rays: 512 });
+    await slicer.export();
+    slicer.dispose();
+    return report.layers;
+  });
+  expect(layers).toBeGreaterThan(100);
+  expect(complaints).toEqual([]);
+});
+
+test("in a sandboxed frame, to which its own host is another origin", async () => {
+  const complaints = await open("frame.html", `${policyFor(origin, "data:")}; frame-src *`);
+  await page.frameLocator("iframe").locator("cusp-slicer[state=done]").waitFor();
+  expect(complaints).toEqual([]);
+});
+
+/** What a slicer with these assets fails with, twice. */
+async function failures(assets: string): Promise<unknown> {
+  await page.waitForFunction(() => "api" in window);
+  return page.evaluate(async (assets) => {
+    const slicer = window.api.createSlicer({ assets });
+    const failure = (): Promise<unknown> => slicer.printers().then(() => "it started", ({ code, detail }) => [code, detail]);
+    const both = [await failure(), await failure()];
+    slicer.dispose();
+    return both;
+  }, assets);
+}
+
+/** A worker that was refused, twice: in its place the next call starts another. */
+function refused(system: string): unknown {
+  const once = ["worker-failed", { system }];
+  return [once, once];
+}
+
+test("a worker that cannot start rejects with a code of its own, whatever stands in its way", async () => {
+  const gone = await serveFolder(folder);
+  await gone.close();
+  await open("", policyFor("http://127.0.0.1:*", "blob:"));
+  for (const assets of [`${cdn.address}nowhere/`, mistyped.address, closed.address, gone.address]) {
+    expect(await failures(assets)).toEqual(refused(`${assets}worker.js could not be loaded`));
+  }
+  await page.context().close();
+
+  await open("", policyFor(origin, "blob:").replace(/worker-src [^;]*/, "worker-src 'none'"));
+  expect(await failures(cdn.address)).toEqual(refused(`${cdn.address}worker.js could not be loaded`));
+  await page.waitForSelector("cusp-slicer[state=error]");
+  expect(await page.getByRole("alert").innerText()).toContain("tell whoever runs it");
+  await page.context().close();
+
+  await open("", `${policyFor(origin, "blob:")}; ${TRUSTED_TYPES.replace("cusp ", "")}`);
+  expect(await failures(cdn.address)).toEqual(refused(expect.stringContaining("TrustedScriptURL") as string));
+});

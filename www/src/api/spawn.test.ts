@@ -1,0 +1,89 @@
+import { afterEach, beforeEach, expect, test, vi } from "vitest";
+import { spawnWorker, wasmAddress } from "./spawn.js";
+
+/** The last worker that was started. */
+let started: FakeWorker;
+const note = (worker: FakeWorker): void => void (started = worker);
+
+class FakeWorker extends EventTarget {
+  constructor(
+    readonly address: unknown,
+    readonly options: WorkerOptions,
+  ) {
+    super();
+    note(this);
+  }
+  postMessage(): void {}
+}
+
+beforeEach(() => {
+  vi.stubGlobal("Worker", FakeWorker);
+  vi.stubGlobal("origin", "https://shop.test");
+  vi.stubGlobal("location", { href: "https://shop.test/cup" });
+  vi.stubGlobal("document", { baseURI: "https://shop.test/cup" });
+});
+
+afterEach(() => void vi.unstubAllGlobals());
+
+test("a worker starts from where the bundler has put it, as a module, and the page's own Worker stays", () => {
+  spawnWorker(null);
+  expect(String(started.address)).toMatch(/\/src\/api\/worker\.ts$/);
+  expect(started.options).toMatchObject({ type: "module" });
+  expect(globalThis.Worker).toBe(FakeWorker);
+  expect(wasmAddress(null)).toMatch(/\/pkg\/cusp_slicer_bg\.wasm$/);
+});
+
+test.each([
+  ["/cusp", "https://shop.test/cusp/"],
+  ["cusp/", "https://shop.test/cusp/"],
+  [new URL("https://shop.test/v2/"), "https://shop.test/v2/"],
+])("assets in the folder %s are found there by their names", (assets, folder) => {
+  spawnWorker(assets);
+  expect(started.address).toBe(`${folder}worker.js`);
+  expect(wasmAddress(assets)).toBe(`${folder}cusp_slicer_bg.wasm`);
+});
+
+test("a worker of another origin is imported by a blob, which is let go once it has started", async () => {
+  const revoked = vi.spyOn(URL, "revokeObjectURL");
+  spawnWorker("https://cdn.test/cusp");
+  const address = String(started.address);
+  expect(await (await fetch(address)).text()).toBe(`import "https://cdn.test/cusp/worker.js";`);
+  expect(revoked).not.toHaveBeenCalled();
+  started.dispatchEvent(new Event("message"));
+  expect(revoked).toHaveBeenCalledWith(address);
+});
+
+test("in an opaque origin, as of a sandboxed frame, it is imported by a data URL", async () => {
+  vi.stubGlobal("origin", "null");
+  spawnWorker("/cusp");
+  expect(String(started.address)).toMatch(/^data:/);
+  expect(await (await fetch(String(started.address))).text()).toBe(`import "https://shop.test/cusp/worker.js";`);
+});
+
+test("what the browser refuses is an error with a code, whether it says so at once or later", () => {
+  vi.stubGlobal("Worker", function refuse() {
+    throw new DOMException("cannot be accessed from origin", "SecurityError");
+  });
+  const refused = expect.objectContaining({ code: "worker-failed", detail: { system: "cannot be accessed from origin" } });
+  expect(() => spawnWorker("/cusp")).toThrow(refused as Error);
+  expect(() => spawnWorker("http://[")).toThrow(expect.objectContaining({ code: "worker-failed" }) as Error);
+  vi.stubGlobal("Worker", FakeWorker);
+  const said: string[] = [];
+  spawnWorker("/cusp").onBroken((message) => said.push(message));
+  started.dispatchEvent(new Event("error"));
+  started.dispatchEvent(Object.assign(new Event("error"), { message: "unexpected token" }));
+  expect(said).toEqual(["https://shop.test/cusp/worker.js could not be loaded", "unexpected token"]);
+});
+
+test("under Trusted Types the address is that of the policy `cusp`, which is made once", () => {
+  const made: string[] = [];
+  const createPolicy = (name: string): { createScriptURL(address: string): object } => {
+    made.push(name);
+    return { createScriptURL: (address) => ({ trusted: address }) };
+  };
+  vi.stubGlobal("trustedTypes", { createPolicy });
+  spawnWorker("/cusp");
+  spawnWorker("/cusp");
+  expect(started.address).toEqual({ trusted: "https://shop.test/cusp/worker.js" });
+  expect(made).toEqual(["cusp"]);
+});

@@ -1,0 +1,97 @@
+/** Starts workers, on whatever origin their script is. */
+import * as Comlink from "comlink";
+import { broke, type WorkerHandle } from "./calls.js";
+import { listenTo } from "./told.js";
+import type { SlicerWorker } from "./wire.js";
+
+/** URL of the folder with the package's files, relative to the page; null: they are where a bundler has put them. */
+export type Assets = string | URL | null;
+
+/** A script, and whether it is a module. */
+interface Script {
+  address: string;
+  options: WorkerOptions;
+}
+
+/** A page's Trusted Types, which TypeScript's library does not know. */
+interface TrustedTypes {
+  createPolicy(name: string, rules: Policy): Policy;
+}
+
+interface Policy {
+  createScriptURL(address: string): string;
+}
+
+/** Starts the slicer's worker. Throws `worker-failed` if the browser refuses to. */
+export function spawnWorker(assets: Assets): WorkerHandle {
+  let script: Script;
+  let start: string;
+  let worker: Worker;
+  try {
+    script = assets === null ? bundled() : { address: within(assets, "worker.js"), options: { type: "module", name: "cusp-slicer" } };
+    start = fromHere(script);
+    worker = new Worker(trusted(start), script.options);
+  } catch (error) {
+    throw broke("worker-failed", error);
+  }
+  worker.addEventListener("message", () => URL.revokeObjectURL(start), { once: true });
+  listenTo(worker);
+  return {
+    remote: Comlink.wrap<SlicerWorker>(worker),
+    terminate: () => worker.terminate(),
+    onBroken: (callback) => {
+      // Browsers give no reason for a script that they have not loaded.
+      worker.addEventListener("error", (event) => callback(event.message || `${script.address} could not be loaded`));
+      worker.addEventListener("messageerror", () => callback("a message could not be read"));
+    },
+  };
+}
+
+/** The address of the WebAssembly module. */
+export const wasmAddress = (assets: Assets): string =>
+  // Bundlers recognise this exact form and emit the file.
+  assets === null ? new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url).href : within(assets, "cusp_slicer_bg.wasm");
+
+const within = (folder: string | URL, name: string): string => new URL(name, new URL(String(folder).replace(/\/?$/, "/"), document.baseURI)).href;
+
+/**
+ * The script as a bundler has written it. Bundlers recognise a worker by the whole expression alone, whose worker may not be allowed to
+ * start from there: a stand-in takes what they have made of it.
+ */
+function bundled(): Script {
+  const { Worker: own } = globalThis;
+  const standIn = function (address: URL | string, options: WorkerOptions): Script {
+    return { address: String(address), options };
+  };
+  globalThis.Worker = standIn as unknown as typeof Worker;
+  try {
+    return new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-slicer" }) as unknown as Script;
+  } finally {
+    globalThis.Worker = own;
+  }
+}
+
+/** An address that a worker may start from: pages start none from another origin, but it may import a script from there, if that allows it (CORS). */
+function fromHere({ address, options }: Script): string {
+  const { protocol, origin } = new URL(address, location.href);
+  if (!/^https?:$/.test(protocol) || origin === globalThis.origin) return address;
+  // No dynamic import, which would be over only after the first messages.
+  const quoted = JSON.stringify(address);
+  const code = options.type === "module" ? `import ${quoted};` : `importScripts(${quoted});`;
+  // In a sandboxed frame Chromium starts no module from a blob.
+  const isOpaque = globalThis.origin === "null";
+  return isOpaque ? `data:text/javascript,${encodeURIComponent(code)}` : URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+}
+
+let policy: Policy | undefined;
+
+/** An address as pages want it that enforce Trusted Types. */
+function trusted(address: string): string {
+  const { trustedTypes } = globalThis as { trustedTypes?: TrustedTypes };
+  try {
+    policy ??= trustedTypes?.createPolicy("cusp", { createScriptURL: (address) => address });
+  } catch {
+    // Not among those that the page allows. If it enforces them too, the browser refuses the worker.
+  }
+  return policy?.createScriptURL(address) ?? address;
+}
