@@ -10,6 +10,14 @@ interface OwnDetails {
   "no-model": null;
   /** The bytes of the file could not be read. */
   "file-unreadable": null;
+  /** A model cannot be read from a value of this kind. */
+  "bad-source": { given: string };
+  /** A list of a source is of no whole number of facets or vertices. */
+  "bad-facets": { list: "positions" | "indices"; numbers: number; multiple_of: number };
+  /** A source has an index of no vertex. */
+  "bad-index": { place: number; index: number; vertices: number };
+  /** An argument must be a whole number, counted from 0. */
+  "bad-number": { argument: string; value: unknown };
   /** The file that should describe a printer holds no JSON object. */
   "printer-not-json": SystemDetail;
   /** The model's URL returned an HTTP error, or could not be reached. */
@@ -98,3 +106,9 @@ export function asSlicerError(error: unknown): SlicerError {
 
 /** The message of any thrown value. */
 export const said = (error: unknown): string => (error instanceof Error ? error.message : String(error));
+
+/** Throws `bad-number` unless an argument is a whole number, counted from 0: to the core 1.5 would be 1, and NaN 0. */
+export function checkWhole(argument: string, value: unknown): void {
+  if (Number.isInteger(value) && (value as number) >= 0) return;
+  throw new SlicerError("bad-number", `${argument} must be a whole number from 0, not ${String(value)}`, { argument, value });
+}

@@ -1,7 +1,6 @@
 import { expect, test } from "vitest";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import { fakePlate } from "./fake-plate.js";
-import { resolve } from "./source.js";
 import type { WorkerHandle } from "./calls.js";
 import type { Preview, Printability, MeshInfo, Options, Price, Report, SlicerWorker } from "./wire.js";
 
@@ -194,18 +193,15 @@ test("weights are written to a file and read back", async () => {
   expect(await slicer.saliency()).toEqual(Float32Array.of(0.5));
 });
 
-test("sources: files keep their name, bytes get a default one, URLs are fetched", async () => {
-  const bytes = new TextEncoder().encode("solid");
-  expect(await resolve(new File([bytes], "a.stl"))).toMatchObject({ name: "a.stl" });
-  expect((await resolve(bytes)).name).toBe("model.stl");
-  expect(await (await resolve(bytes.buffer)).file.text()).toBe("solid");
-  expect(await (await resolve("data:,solid")).file.text()).toBe("solid");
-});
-
-test("a fetch that fails rejects with fetch-failed; an aborted one rejects with an abort", async () => {
-  await expect(resolve("nonsense:x")).rejects.toMatchObject({ code: "fetch-failed" });
-  const signal = AbortSignal.abort();
-  await expect(resolve("data:,x", signal)).rejects.toMatchObject({ name: "AbortError" });
+test.each([1.5, -1, NaN, Infinity, "3", null])("a layer or plate %o is refused before the core takes it for another", async (value) => {
+  const { slicer, log } = faked();
+  const layer = value as number;
+  const refused = (argument: string): unknown => ({ code: "bad-number", detail: { argument, value } });
+  await expect(slicer.mask(layer)).rejects.toMatchObject(refused("layer") as object);
+  await expect(slicer.plate.mask(0, layer)).rejects.toMatchObject(refused("layer") as object);
+  await expect(slicer.plate.mask(layer, 0)).rejects.toMatchObject(refused("plate") as object);
+  await expect(slicer.plate.export(layer)).rejects.toMatchObject(refused("plate") as object);
+  expect(log).toEqual([]);
 });
 
 test("a print file has a name, a media type and warnings", async () => {

@@ -16,6 +16,7 @@
 import { absentSlicer } from "./absent.js";
 import type { Compiled, WorkerHandle, Watch } from "./calls.js";
 import { Client, type About, type Wanted } from "./client.js";
+import { checkWhole } from "./error.js";
 import { measure, orient, type OrientCall } from "./orient.js";
 import type { Helpers } from "./helpers.js";
 import { fetchedPlate } from "./fetched-plate.js";
@@ -29,7 +30,7 @@ import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Pr
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
-export type { Source } from "./source.js";
+export type { IndexedFacets, Source } from "./source.js";
 export type { Watch } from "./calls.js";
 export type { Found, OrientCall } from "./orient.js";
 export type { AddCall, ModelChange, Plate, PlateCall, PlateModel, PlatesPlan } from "./plate.js";
@@ -235,6 +236,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return { schema: SCHEMA, ...(await main.plan(about, options, call)) };
     },
     async mask(layer, call = {}) {
+      checkWhole("layer", layer);
       const { bits, of } = await main.mask(layer, call);
       const { width, height } = of.report.mask;
       return { layer, width, height, bits };

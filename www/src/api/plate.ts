@@ -13,7 +13,7 @@
  */
 import type { Compiled, Watch, WorkerHandle } from "./calls.js";
 import type { Weights } from "./client.js";
-import { SlicerError } from "./error.js";
+import { checkWhole, SlicerError } from "./error.js";
 import { PlateClient, type Loaded } from "./plate-client.js";
 import type { OrderedPlates } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
@@ -181,11 +181,14 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
       return { schema: SCHEMA, plates, print_time_s, resin_ml, ...(supports !== undefined && { supports }) };
     },
     async mask(plate, layer, call = {}) {
+      checkWhole("plate", plate);
+      checkWhole("layer", layer);
       const { bits, of } = await client.mask(plate, layer, call);
       const { width, height } = reportOf(of.report.plates, plate).mask;
       return { layer, width, height, bits };
     },
     async export(plate, call = {}) {
+      checkWhole("plate", plate);
       const { blob, of } = await client.archive(plate, call);
       const report = reportOf(of.report.plates, plate);
       return printFile(`${stemOfPlate(plate, report, of.models)}-cusp`, blob, report);

@@ -1,8 +1,18 @@
 /** Turns each way of passing a model into a Blob with a name. */
 import { isAbort, said, SlicerError } from "./error.js";
+import { stlOf } from "./stl.js";
 
-/** A file, bytes, or a URL; a string is a URL relative to the page. */
-export type Source = Blob | ArrayBuffer | ArrayBufferView | URL | string;
+/** Facets that share vertices: three coordinates a vertex, in mm, and three indices of vertices a facet. */
+export interface IndexedFacets {
+  positions: ArrayLike<number>;
+  indices: ArrayLike<number>;
+}
+
+/**
+ * A file, its bytes or a stream of them; a URL, where a string is relative to the page, or the response to a request; or facets, as a
+ * `Float32Array` of nine coordinates each, in mm, or with indices.
+ */
+export type Source = Blob | ArrayBuffer | ArrayBufferView | ReadableStream<Uint8Array> | URL | string | Response | IndexedFacets;
 
 export interface Named {
   file: Blob;
@@ -15,14 +25,73 @@ const NAMELESS = "model.stl";
 /** A model's name without its extension. */
 export const stemOf = (model: string): string => model.replace(/\.(stl|3mf|obj)$/i, "").trim() || "model";
 
-/** The source as a named Blob. Fetches a URL; rejects with `fetch-failed`, or with the signal's reason on an abort. */
+/** The source as a named Blob. Rejects with `fetch-failed` if it does not arrive, or with the signal's reason on an abort. */
 export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {
-  if (source instanceof File) return { file: source, name: source.name };
-  if (source instanceof Blob) return { file: source, name: NAMELESS };
-  if (typeof source !== "string" && !(source instanceof URL)) {
-    return { file: new Blob([source as ArrayBuffer]), name: NAMELESS };
+  if (isA("File", source)) return { file: source, name: source.name };
+  if (isA("Blob", source)) return { file: source, name: NAMELESS };
+  if (isA("String", source) || isA("URL", source)) {
+    const answer = (): Promise<Response> => fetch(source, signal === undefined ? {} : { signal });
+    return { file: await received(answer, signal), name: nameOf(source) };
   }
-  return { file: await download(source, signal), name: nameOf(source) };
+  if (isA("Response", source)) return { file: await received(() => abortable(source, signal), signal), name: nameOf(source.url) };
+  if (isA("ReadableStream", source)) return { file: await received(() => abortable(new Response(source), signal), signal), name: NAMELESS };
+  return { file: new Blob([bytesIn(source)]), name: NAMELESS };
+}
+
+/** Values that are told by their kind, also those of another frame. */
+interface Kinds {
+  File: File;
+  Blob: Blob;
+  String: string;
+  URL: URL;
+  Response: Response;
+  ReadableStream: ReadableStream<Uint8Array>;
+  ArrayBuffer: ArrayBuffer;
+  Float32Array: Float32Array;
+  Float64Array: Float64Array;
+}
+
+const kindOf = (value: unknown): string => Object.prototype.toString.call(value).slice("[object ".length, -1);
+
+const isA = <Kind extends keyof Kinds>(kind: Kind, value: unknown): value is Kinds[Kind] => kindOf(value) === kind;
+
+/** The bytes of a file in memory, or of an STL of facets. */
+function bytesIn(source: ArrayBuffer | ArrayBufferView | IndexedFacets): ArrayBuffer | ArrayBufferView<ArrayBuffer> {
+  if (isA("Float32Array", source)) return stlOf(whole("positions", source, 9));
+  const memory = ArrayBuffer.isView(source) && !isA("Float64Array", source) ? source.buffer : source;
+  // A Blob takes no memory that threads share.
+  if (isA("ArrayBuffer", memory)) return source as ArrayBuffer | ArrayBufferView<ArrayBuffer>;
+  if (areFacets(source)) return stlOf(cornersOf(source));
+  const given = kindOf(memory);
+  throw new SlicerError("bad-source", `a model cannot be read from ${given}: pass a file, its bytes, a stream, a URL, a Response or positions`, { given });
+}
+
+const isList = (value: unknown): boolean => typeof (value as ArrayLike<number> | undefined)?.length === "number";
+
+function areFacets(source: unknown): source is IndexedFacets {
+  const { positions, indices } = (source ?? {}) as Partial<IndexedFacets>;
+  return isList(positions) && isList(indices);
+}
+
+/** The corners of facets, nine coordinates each. */
+function cornersOf({ positions, indices }: IndexedFacets): Float32Array {
+  const vertices = whole("positions", positions, 3).length / 3;
+  const corners = new Float32Array(3 * whole("indices", indices, 3).length);
+  for (let place = 0; place < indices.length; place++) {
+    const index = Number(indices[place]);
+    if (!(Number.isInteger(index) && index >= 0 && index < vertices)) {
+      throw new SlicerError("bad-index", `indices[${place}] is ${index}, and there are ${vertices} vertices`, { place, index, vertices });
+    }
+    for (let axis = 0; axis < 3; axis++) corners[3 * place + axis] = positions[3 * index + axis] as number;
+  }
+  return corners;
+}
+
+/** A list of so many numbers an item. */
+function whole<List extends ArrayLike<number>>(list: "positions" | "indices", numbers: List, multiple_of: number): List {
+  if (numbers.length % multiple_of === 0) return numbers;
+  const message = `${list}: ${numbers.length} numbers are no multiple of ${multiple_of}`;
+  throw new SlicerError("bad-facets", message, { list, numbers: numbers.length, multiple_of });
 }
 
 function nameOf(address: URL | string): string {
@@ -36,9 +105,15 @@ function nameOf(address: URL | string): string {
   }
 }
 
-async function download(address: URL | string, signal?: AbortSignal): Promise<Blob> {
+/** A response whose body is given up on an abort, of which it does not know. */
+function abortable(response: Response, signal: AbortSignal | undefined): Response {
+  const { ok, body } = response;
+  return !ok || body === null || signal === undefined ? response : new Response(body.pipeThrough(new TransformStream(), { signal }));
+}
+
+async function received(answer: () => Response | Promise<Response>, signal: AbortSignal | undefined): Promise<Blob> {
   try {
-    const response = await fetch(address, signal === undefined ? {} : { signal });
+    const response = await answer();
     if (response.ok) return await response.blob();
     throw new SlicerError("fetch-failed", `the model could not be fetched (HTTP ${response.status})`, {
       status: response.status,

@@ -214,6 +214,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-browser": () => "Hier ist kein Browser; rufen Sie das auf der Seite auf.",
   "no-model": () => "Es gibt noch kein Modell; öffnen Sie zuerst eines.",
   "file-unreadable": () => "Vielleicht wurde die Datei verschoben, geändert oder gesperrt. Wählen Sie sie noch einmal.",
+  "bad-source": ({ given }) =>
+    `Aus ${given} lässt sich kein Modell lesen; übergeben Sie eine Datei, ihre Bytes oder einen Strom davon, eine Adresse, eine Antwort oder die Koordinaten seiner Dreiecke.`,
+  "bad-facets": ({ list, numbers, multiple_of }) => `Die Liste ${list} hat ${count(numbers)} Zahlen und braucht ein Vielfaches von ${exact(multiple_of)}.`,
+  "bad-index": ({ place, index, vertices }) =>
+    `Der Index an Stelle ${count(place)} ist ${exact(index)} und keine Ecke: Es gibt ${count(vertices)}, ab 0.`,
+  "bad-number": ({ argument, value }) => `Das Argument ${argument} ist ${String(value)} und muss eine ganze Zahl ab 0 sein.`,
   "fetch-failed": (detail) =>
     "status" in detail ? `Unter dieser Adresse kam keine Datei (HTTP ${detail.status}).` : `Die Adresse hat nicht geantwortet (${detail.system}).`,
   "worker-failed": ({ system }) =>

@@ -214,6 +214,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-browser": () => "There is no browser here; call this in the page.",
   "no-model": () => "There is no model yet; open one first.",
   "file-unreadable": () => "It may have been moved, changed or locked. Choose it again.",
+  "bad-source": ({ given }) =>
+    `A model cannot be read from ${given}; pass a file, its bytes or a stream of them, an address, a response, or the positions of its facets.`,
+  "bad-facets": ({ list, numbers, multiple_of }) => `The list ${list} has ${count(numbers)} numbers, and needs a multiple of ${exact(multiple_of)}.`,
+  "bad-index": ({ place, index, vertices }) =>
+    `The index at place ${count(place)} is ${exact(index)}, which is no vertex: there are ${count(vertices)}, from 0.`,
+  "bad-number": ({ argument, value }) => `The argument ${argument} is ${String(value)}, and must be a whole number from 0.`,
   "fetch-failed": (detail) =>
     "status" in detail ? `The address did not answer with a file (HTTP ${detail.status}).` : `The address did not answer (${detail.system}).`,
   "worker-failed": ({ system }) => `Reload the page. If that does not help, tell whoever runs it: a script is missing, or the page’s policy forbids the worker. (${system})`,

@@ -214,6 +214,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-browser": () => "Aquí no hay navegador; llame a esto en la página.",
   "no-model": () => "Aún no hay modelo; abra uno primero.",
   "file-unreadable": () => "Quizá se movió, cambió o está bloqueado. Elíjalo de nuevo.",
+  "bad-source": ({ given }) =>
+    `No se puede leer un modelo de ${given}; pase un archivo, sus bytes o un flujo de ellos, una dirección, una respuesta o las posiciones de sus facetas.`,
+  "bad-facets": ({ list, numbers, multiple_of }) => `La lista ${list} tiene ${count(numbers)} números y necesita un múltiplo de ${exact(multiple_of)}.`,
+  "bad-index": ({ place, index, vertices }) =>
+    `El índice en el lugar ${count(place)} es ${exact(index)}, que no es un vértice: hay ${count(vertices)}, desde 0.`,
+  "bad-number": ({ argument, value }) => `El argumento ${argument} es ${String(value)} y debe ser un número entero desde 0.`,
   "fetch-failed": (detail) =>
     "status" in detail ? `En esa dirección no había un archivo (HTTP ${detail.status}).` : `La dirección no respondió (${detail.system}).`,
   "worker-failed": ({ system }) =>

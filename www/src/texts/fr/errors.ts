@@ -215,6 +215,12 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "no-browser": () => "Il n’y a pas de navigateur ici ; appelez cela dans la page.",
   "no-model": () => "Il n’y a pas encore de modèle ; ouvrez-en un d’abord.",
   "file-unreadable": () => "Il a peut-être été déplacé, modifié ou verrouillé. Choisissez-le à nouveau.",
+  "bad-source": ({ given }) =>
+    `Aucun modèle ne peut être lu dans ${given} ; passez un fichier, ses octets ou un flux d’octets, une adresse, une réponse ou les positions de ses facettes.`,
+  "bad-facets": ({ list, numbers, multiple_of }) => `La liste ${list} a ${count(numbers)} nombres, et il en faut un multiple de ${exact(multiple_of)}.`,
+  "bad-index": ({ place, index, vertices }) =>
+    `L’indice à la place ${count(place)} est ${exact(index)}, qui n’est pas un sommet : il y en a ${count(vertices)}, à partir de 0.`,
+  "bad-number": ({ argument, value }) => `L’argument ${argument} est ${String(value)} et doit être un nombre entier à partir de 0.`,
   "fetch-failed": (detail) =>
     "status" in detail ? `Aucun fichier à cette adresse (HTTP ${detail.status}).` : `L’adresse n’a pas répondu (${detail.system}).`,
   "worker-failed": ({ system }) =>

@@ -202,6 +202,10 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "no-browser": () => "这里没有浏览器；请在页面中调用。",
   "no-model": () => "还没有模型；请先打开一个。",
   "file-unreadable": () => "文件可能已被移动、更改或锁定。请重新选择。",
+  "bad-source": ({ given }) => `无法从 ${given} 读取模型；请传入文件、其字节或字节流、地址、响应，或各三角面的坐标。`,
+  "bad-facets": ({ list, numbers, multiple_of }) => `列表 ${list} 有 ${count(numbers)} 个数，应为 ${exact(multiple_of)} 的倍数。`,
+  "bad-index": ({ place, index, vertices }) => `第 ${count(place)} 位的索引为 ${exact(index)}，不是顶点：从 0 起共有 ${count(vertices)} 个。`,
+  "bad-number": ({ argument, value }) => `参数 ${argument} 为 ${String(value)}，必须是从 0 起的整数。`,
   "fetch-failed": (detail) =>
     "status" in detail ? `该地址没有返回文件（HTTP ${detail.status}）。` : `该地址没有回应（${detail.system}）。`,
   "worker-failed": ({ system }) => `请重新加载页面。若无效，请告知网站管理员：缺少脚本，或页面的策略不允许该 worker。（${system}）`,
