@@ -208,6 +208,23 @@ test("an abort stops a call at any stage, at once if it waits for its turn, and 
   expect(found.size).toBeGreaterThan(1000);
 });
 
+test("a call whose worker ends without a word rejects, and the next one has another worker", async () => {
+  await page.evaluate(async () => {
+    const slicer = window.api.createSlicer();
+    await slicer.load("ball.stl");
+    Object.assign(window, { slicer });
+  });
+  // It takes the next call, and ends in place of an answer.
+  await page.workers()[0]?.evaluate(() => Object.assign(self, { postMessage: () => close() }));
+  const [code, layers] = await page.evaluate(async () => {
+    const { slicer } = window as unknown as { slicer: Api.Slicer };
+    const code = await slicer.plan({ rays: 512 }).then(() => "a plan", (error: Api.SlicerError) => error.code);
+    return [code, (await slicer.plan({ rays: 512 })).report.layers] as const;
+  });
+  expect(code).toBe("crash");
+  expect(layers).toBeGreaterThan(100);
+});
+
 test("a search for directions gives the same with any number of workers, and with what it measured before", async () => {
   const found = await page.evaluate(async () => {
     const search = { directions: 100, quality: "roughness" } as const;

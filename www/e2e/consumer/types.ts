@@ -31,6 +31,8 @@ element.metric = "beauty";
 const options: Options = { printer: "saturn-3-ultra", tolerance: 0.05 };
 const slicer: Slicer = createSlicer();
 const { signal } = new AbortController();
+await slicer.load({ positions: new Float32Array(9), indices: [0, 1, 2] });
+await createSlicer({ assets: "https://cdn.test/cusp/" }).load(await fetch("a.stl"));
 await slicer.load(new URL("a.stl", location.href), { signal, onProgress: (stage, fraction) => console.log(stage, fraction) });
 const plan: Plan = await slicer.plan(options, { signal });
 const { name, type, blob, warnings }: PrintFile = await slicer.export();

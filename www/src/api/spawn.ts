@@ -1,6 +1,7 @@
 /** Starts workers, on whatever origin their script is. */
 import * as Comlink from "comlink";
 import { broke, type WorkerHandle } from "./calls.js";
+import { whenEnded } from "./liveness.js";
 import { listenTo } from "./told.js";
 import type { SlicerWorker } from "./wire.js";
 
@@ -43,6 +44,7 @@ export function spawnWorker(assets: Assets): WorkerHandle {
       // Browsers give no reason for a script that they have not loaded.
       worker.addEventListener("error", (event) => callback(event.message || `${script.address} could not be loaded`));
       worker.addEventListener("messageerror", () => callback("a message could not be read"));
+      whenEnded(worker, () => callback("the worker has ended"));
     },
   };
 }

@@ -4,6 +4,7 @@ import init, { calibrate_layers, encode_group, head_bytes, identify, Orientation
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
+import { holdLock } from "./liveness.js";
 import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./told.js";
@@ -248,4 +249,7 @@ const api: Remote = {
 
 if (globalThis.navigator?.gpu !== undefined) acceptCompatible(navigator.gpu);
 // On a server that imports every entry there is nothing to listen to.
-if (globalThis.addEventListener !== undefined) Comlink.expose(api);
+if (globalThis.addEventListener !== undefined) {
+  holdLock();
+  Comlink.expose(api);
+}
