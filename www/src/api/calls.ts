@@ -47,6 +47,25 @@ export interface Life<Held> {
   readonly held: Held;
 }
 
+/** What a task throws to run again in a fresh worker. */
+const OUTGROWN = Symbol("outgrown");
+
+/** Memory that is not worth a restart. */
+const MODEST_BYTES = 256 << 20;
+
+/** Memory that a model may take, as a multiple of its file: some files are packed. */
+const MEMORY_OF_FILE = 64;
+
+/** Whether the memory of a worker, which never shrinks, is large, and many times what files of this size need. */
+async function hasOutgrown({ handle }: Life<unknown>, file_bytes: number): Promise<boolean> {
+  return (await handle.remote.memory()) > Math.max(MODEST_BYTES, MEMORY_OF_FILE * file_bytes);
+}
+
+/** Has a task run again in a fresh worker, if this one has outgrown the files that it is to hold in place of others. */
+export async function shed(life: Life<unknown>, file_bytes: number): Promise<void> {
+  if (await hasOutgrown(life, file_bytes)) throw OUTGROWN;
+}
+
 export class Calls<Held> {
   readonly #spawn: () => WorkerHandle;
   readonly #compiled: Compiled;
@@ -74,6 +93,13 @@ export class Calls<Held> {
     if (this.#life === life && this.#queue === queue) await this.run({}, null, task).catch(() => undefined);
   }
 
+  /** Terminates the worker once its calls are over, if its memory is large: for one whose files are needed no more. */
+  async trim(): Promise<void> {
+    if (this.#life === null) return;
+    const rest = async (life: Life<Held>): Promise<void> => ((await hasOutgrown(life, 0)) ? this.rest() : undefined);
+    await this.run({}, null, rest).catch(() => undefined);
+  }
+
   /** Terminates the worker. The next call starts another. */
   rest(): void {
     this.#life?.end(new DOMException("the slicer was sent to rest", "AbortError"));
@@ -87,31 +113,21 @@ export class Calls<Held> {
 
   /** Enqueues a task at once. When its turn comes, it waits for `needed`, then for the worker. */
   run<N, T>(
-    { signal, onProgress }: Watch,
+    watch: Watch,
     needed: Promise<N> | null,
     task: (life: Life<Held>, needed: N, progress: OnProgress) => Promise<T>,
   ): Promise<T> {
+    const { signal } = watch;
     // If `needed` rejects early, the call reports it when its turn comes.
     needed?.catch(() => undefined);
     const result = this.#queue.then(async () => {
       signal?.throwIfAborted();
       const needs = (needed === null ? null : await untilAborted(needed, signal)) as N;
-      if (this.#disposed) throw disposed();
-      const life = this.#live();
-      const abort = (): void => life.end(signal?.reason);
-      signal?.addEventListener("abort", abort, { once: true });
-      const progress = told<OnProgress>((stage, fraction, done) => {
-        // Ignore progress that arrives after an abort.
-        if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
+      const attempt = (): Promise<T> => this.#attempt(watch, (life, progress) => task(life, needs, progress));
+      return attempt().catch((error: unknown) => {
+        if (error === OUTGROWN) return attempt();
+        throw error;
       });
-      try {
-        return await life.within(life.booted.then(() => task(life, needs, progress)));
-      } catch (error) {
-        throw this.#understand(error, life, signal);
-      } finally {
-        signal?.removeEventListener("abort", abort);
-        untold(progress);
-      }
     });
     // The next call waits for this one to settle. The queue does not hold the result, which may be large.
     const forget = (): void => undefined;
@@ -120,9 +136,33 @@ export class Calls<Held> {
     return untilAborted(result, signal);
   }
 
+  /** Runs a task in the worker. Rejects with {@link OUTGROWN} if it has to run in another. */
+  async #attempt<T>({ signal, onProgress }: Watch, task: (life: Life<Held>, progress: OnProgress) => Promise<T>): Promise<T> {
+    if (this.#disposed) throw disposed();
+    const life = this.#live();
+    const abort = (): void => life.end(signal?.reason);
+    signal?.addEventListener("abort", abort, { once: true });
+    const progress = told<OnProgress>((stage, fraction, done) => {
+      // Ignore progress that arrives after an abort.
+      if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
+    });
+    try {
+      return await life.within(life.booted.then(() => task(life, progress)));
+    } catch (error) {
+      throw this.#understand(error, life, signal);
+    } finally {
+      signal?.removeEventListener("abort", abort);
+      untold(progress);
+    }
+  }
+
   /** Passes on aborts and the core's own errors. Anything else means that the core broke, so its worker is terminated. */
   #understand(error: unknown, life: Life<Held>, signal: AbortSignal | undefined): unknown {
     if (isAbort(error, signal)) return error;
+    if (error === OUTGROWN) {
+      life.end(error);
+      return error;
+    }
     const described = ofCore(error);
     if (described !== null && described.code !== "start-failed" && described.code !== "crash") return described;
     const broken = described ?? broke("crash", error);

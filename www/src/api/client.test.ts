@@ -15,6 +15,7 @@ class FakeWorker implements WorkerHandle {
   terminated = false;
   hang = false;
   failure: unknown = null;
+  memory_bytes = 1 << 24;
   broken: (message: string) => void = () => undefined;
   opened = "";
   planned: Options = {};
@@ -25,6 +26,7 @@ class FakeWorker implements WorkerHandle {
       this.#say(typeof module === "string" ? "boot, compiling" : "boot");
       return {};
     },
+    memory: () => this.memory_bytes,
     rehearse: async () => this.#say("rehearse"),
     open: async (file) => {
       this.opened = await file.text();
@@ -377,6 +379,47 @@ test("a timeout is an abort, and so is a signal with a custom reason", async () 
   await new Promise((resolve) => setTimeout(resolve));
   abort.abort(reason);
   await outcome;
+});
+
+const GIGABYTE = 1 << 30;
+
+test("a worker that has grown far beyond what a model needs is replaced before it reads that", async () => {
+  await caller.open(new Blob(["a"]), watch());
+  await caller.plan({ tolerance: 1 }, watch());
+  worker(1).memory_bytes = GIGABYTE;
+  // The same model again needs what it took.
+  await caller.plan({ tolerance: 2 }, watch());
+  expect(worker(1).terminated).toBe(false);
+  await caller.open(new Blob(["b"]), watch());
+  expect(worker(1).terminated).toBe(true);
+  await caller.plan({ tolerance: 1 }, watch());
+  expect(log.slice(3)).toEqual(["1: plan 2 of a", "2: boot", "2: open b", "2: plan 1 of b"]);
+});
+
+test("a large model may have a large worker, and a modest one is worth no restart", async () => {
+  const large = new Blob([new Uint8Array(GIGABYTE / 64)]);
+  await caller.open(new Blob(["a"]), watch());
+  worker(1).memory_bytes = GIGABYTE;
+  await caller.client.open(Promise.resolve({ blob: large, reading: {} }), watch());
+  worker(1).memory_bytes = 1 << 28;
+  await caller.open(new Blob(["b"]), watch());
+  expect(workers).toHaveLength(1);
+});
+
+test("a file that a fresh worker cannot read leaves the model before", async () => {
+  const refusing = new Caller(() => {
+    const it = new FakeWorker();
+    if (it.number === 2) it.failure = { code: "file-empty", message: "no", detail: null };
+    return it;
+  });
+  await refusing.open(new Blob(["a"]), watch());
+  await refusing.plan({ tolerance: 1 }, watch());
+  worker(1).memory_bytes = GIGABYTE;
+  await expect(refusing.open(new Blob(["b"]), watch())).rejects.toMatchObject({ code: "file-empty" });
+  worker(2).failure = null;
+  log = [];
+  await refusing.client.mask(0);
+  expect(log).toEqual(["2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
 });
 
 test("a price is that of the last good plan, also in a fresh worker", async () => {

@@ -5,7 +5,7 @@
  * its subject and options, and replayed when a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
-import { Calls, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { told, untold } from "./told.js";
@@ -71,10 +71,8 @@ export class Client {
   /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */
   open(file: Promise<ModelFile>, watch: Watch, wantsPositions = false): Promise<Opened> {
     return this.#calls.run(watch, file, async (life, file, progress) => {
-      const opened = await life.handle.remote.open(file.blob, file.reading, progress, wantsPositions);
-      life.held.file = file;
-      life.held.weights = null;
-      life.held.planned = this.#planned = null;
+      const opened = await this.#read(life, file, progress, wantsPositions);
+      this.#planned = null;
       return opened;
     });
   }
@@ -170,6 +168,11 @@ export class Client {
     return this.#calls.run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 
+  /** Gives memory back, once running calls are over, if there is much: the model is needed no more. */
+  trim(): void {
+    void this.#calls.trim();
+  }
+
   /** Terminates the worker. The next call starts another and restores the model, weights and plan that it needs. */
   rest(): void {
     this.#calls.rest();
@@ -188,17 +191,19 @@ export class Client {
     return plan;
   }
 
+  /** Opens a file in place of the one that the worker holds. */
+  async #read(life: Life<Held>, file: ModelFile, progress: OnProgress, wantsPositions?: boolean): Promise<Opened> {
+    await shed(life, file.blob.size);
+    const opened = await life.handle.remote.open(file.blob, file.reading, progress, wantsPositions);
+    Object.assign(life.held, { file, weights: null, planned: null } satisfies Held);
+    return opened;
+  }
+
   /** Opens the subject's file and sets its weights, unless the worker already has them. */
   async #bring(life: Life<Held>, { file, weights }: Subject): Promise<void> {
-    const { remote } = life.handle;
-    if (life.held.file !== file) {
-      await remote.open(file.blob, file.reading, silent);
-      life.held.file = file;
-      life.held.weights = null;
-      life.held.planned = null;
-    }
+    if (life.held.file !== file) await this.#read(life, file, silent);
     if (life.held.weights === weights) return;
-    await remote.setWeights(weights);
+    await life.handle.remote.setWeights(weights);
     life.held.weights = weights;
   }
 

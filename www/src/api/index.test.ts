@@ -12,8 +12,8 @@ const reportOf = ({ tolerance = 9 }: Options): Report =>
     warnings: [{ code: "inside-out" }],
   }) as unknown as Report;
 
-/** A slicer over fake workers, and a log of their calls. */
-function faked(): { slicer: Slicer; log: string[] } {
+/** A slicer over fake workers, whose memory is that of each, and a log of their calls. */
+function faked(memory_bytes = 0): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
   let workers = 0;
   const spawn = (): WorkerHandle => {
@@ -21,6 +21,7 @@ function faked(): { slicer: Slicer; log: string[] } {
     const say = (what: string): void => void log.push(`${number}: ${what}`);
     const remote: SlicerWorker = {
       ...fakePlate(async (what) => say(what)),
+      memory: () => memory_bytes,
       boot: async () => ({}),
       rehearse: async () => say("rehearse"),
       open: async (file, _reading, _progress, wantsPositions) => {
@@ -127,6 +128,15 @@ test("positions come from a worker of their own, which reads the model on first 
   await slicer.load(new Blob(["b"]));
   await slicer.positions();
   expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
+});
+
+test("the worker of previews gives its memory back when another model is loaded", async () => {
+  const { slicer, log } = faked(2 ** 30);
+  await slicer.load(new Blob([new Uint8Array(2 ** 24)]));
+  await slicer.preview();
+  log.length = 0;
+  await slicer.load(new Blob([new Uint8Array(2 ** 24)]));
+  await expect.poll(() => log.filter((line) => line.endsWith("ended"))).toEqual(["2: ended"]);
 });
 
 test("a model comes with its positions if they are asked for, from the worker that has read it", async () => {

@@ -230,7 +230,9 @@ export function createSlicer(setup: Setup = {}): Slicer {
         ([file, { name, info }]) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
         () => before,
       );
-      return { schema: SCHEMA, ...(await loaded) };
+      const result = { schema: SCHEMA, ...(await loaded) } as const;
+      side.trim();
+      return result;
     },
     async plan(options = {}, call = {}) {
       return { schema: SCHEMA, ...(await main.plan(about, options, call)) };

@@ -118,6 +118,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
     };
     const remote: WorkerHandle["remote"] = {
       ...fakePlate(unused),
+      memory: () => 0,
       boot: async () => ({}),
       rehearse: unused,
       open: async (file) => {

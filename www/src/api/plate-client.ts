@@ -4,7 +4,7 @@
  * Each call carries its models, with their weights, as they were when it was made. The last successful plan is kept with its models
  * and options, and replayed when a fresh worker is asked for its masks.
  */
-import { Calls, silent, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
+import { Calls, shed, silent, type Compiled, type Life, type Watch, type WorkerHandle } from "./calls.js";
 import type { ModelFile, Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
@@ -109,6 +109,11 @@ export class PlateClient {
     });
   }
 
+  /** Gives memory back, once running calls are over, if there is much: no model is needed any more. */
+  trim(): void {
+    void this.#calls.trim();
+  }
+
   /** Terminates the worker. The next call starts another and restores the models, weights and plan that it needs. */
   rest(): void {
     this.#calls.rest();
@@ -123,6 +128,8 @@ export class PlateClient {
   async #bring(life: Life<Held>, models: readonly Loaded[]): Promise<void> {
     const { remote } = life.handle;
     const { held } = life;
+    const isOver = held.models.some(({ id }, place) => id !== models[place]?.id);
+    if (isOver) await shed(life, models.reduce((sum, { file }) => sum + file.size, 0));
     for (let place = 0; place < held.models.length; ) {
       if (held.models[place]?.id === models[place]?.id) place++;
       else {

@@ -7,11 +7,13 @@ import type { Price, SlicerWorker } from "./wire.js";
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
 let hang: boolean;
+let memory_bytes: number;
 let plate: RunningPlate;
 
 beforeEach(() => {
   log = [];
   hang = false;
+  memory_bytes = 0;
   let workers = 0;
   const spawn = (): WorkerHandle => {
     const number = ++workers;
@@ -23,7 +25,7 @@ beforeEach(() => {
       void work(`price of ${JSON.stringify(items)}, ${finish}`);
       return { total: 1 } as Price;
     };
-    const remote = { boot: async () => ({}), ...fakePlate(work), price } as unknown as SlicerWorker;
+    const remote = { boot: async () => ({}), memory: () => memory_bytes, ...fakePlate(work), price } as unknown as SlicerWorker;
     return { remote, terminate: () => log.push(`${number}: ended`), onBroken: () => undefined };
   };
   plate = createPlate(spawn, { module: null, address: "" });
@@ -106,6 +108,26 @@ test("cancelling a plan ends the worker; the next one gets the files, the weight
   log = [];
   expect(await plate.mask(1, 3)).toMatchObject({ layer: 3, width: 8, height: 2 });
   expect(log).toEqual(["2: add cup", "2: add ring", "2: plan 1 of cup*0.5 ring, 1 2 copies", "2: mask 3 of plate 1"]);
+});
+
+test("a worker that has grown far beyond what is left on the plate is replaced, and the others are read again", async () => {
+  await plate.add(file("cup"));
+  const { id } = await plate.add(file("ring"));
+  await plate.add(file("vase"));
+  memory_bytes = 2 ** 30;
+  await plate.plan({ tolerance: 1 });
+  await plate.remove(id);
+  log = [];
+  await plate.plan({ tolerance: 1 });
+  await plate.plan({ tolerance: 2 });
+  expect(log).toEqual(["1: ended", "2: add cup", "2: add vase", "2: plan 1 of cup vase, 1 1 copies", "2: plan 2 of cup vase, 1 1 copies"]);
+});
+
+test("an empty plate gives its memory back", async () => {
+  const { id } = await plate.add(file("cup"));
+  memory_bytes = 2 ** 30;
+  await plate.remove(id);
+  await expect.poll(() => log).toEqual(["1: add cup", "1: ended"]);
 });
 
 test("refused weights do not apply to later calls", async () => {

@@ -153,6 +153,7 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
     },
     async remove(id) {
       await change(id, () => null);
+      if ((await models).length === 0) client.trim();
     },
     models: () => models.then((all) => all.map(seen)),
     async setWeights(id, weights, call = {}) {

@@ -134,6 +134,8 @@ export interface Opened {
 export interface SlicerWorker extends PlateWorker {
   /** Starts the core from its compiled module, or from its address. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | string): Promise<WebAssembly.Module>;
+  /** The core's memory in bytes, which never shrinks. */
+  memory(): number;
   /** Plans a small ring and forgets it: what a browser has not compiled yet, it compiles now. */
   rehearse(): Promise<void>;
   /** Reads a model; `wantsPositions`: with the corners of its facets. If this fails, the previous one stays open. */

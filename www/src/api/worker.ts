@@ -138,6 +138,7 @@ const api: Remote = {
     core = await init({ module_or_path: compiled });
     return compiled;
   },
+  memory: () => core?.memory.buffer.byteLength ?? 0,
   async rehearse() {
     const model = new Slicer(stlOf(ring(REHEARSED)), {});
     await model.plan({ rays: REHEARSED_RAYS, backend: "cpu" }, () => undefined);

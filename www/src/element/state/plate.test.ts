@@ -30,7 +30,7 @@ beforeEach(() => {
       return fake.planPlate(options, progress);
     };
     const plateProblems = (): ArrangeError[] => answers;
-    const remote = { boot: async () => ({}), ...fake, planPlate, plateProblems } as unknown as SlicerWorker;
+    const remote = { boot: async () => ({}), memory: () => 0, ...fake, planPlate, plateProblems } as unknown as SlicerWorker;
     return { remote, terminate: () => undefined, onBroken: () => undefined };
   };
   slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null, address: "" }) });
