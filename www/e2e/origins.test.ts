@@ -73,7 +73,7 @@ async function open(path: string, policy: string): Promise<string[]> {
 }
 
 test("the element and the headless slicer come from another origin, under a strict policy with Trusted Types", async () => {
-  const complaints = await open("", `${policyFor(origin, "blob:")}; ${TRUSTED_TYPES}`);
+  const complaints = await open("", `${policyFor(origin)}; ${TRUSTED_TYPES}`);
   await page.waitForSelector("cusp-slicer[state=done]");
   const layers = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();
@@ -88,7 +88,7 @@ test("the element and the headless slicer come from another origin, under a stri
 });
 
 test("in a sandboxed frame, to which its own host is another origin", async () => {
-  const complaints = await open("frame.html", `${policyFor(origin, "data:")}; frame-src *`);
+  const complaints = await open("frame.html", `${policyFor(origin)}; frame-src *`);
   await page.frameLocator("iframe").locator("cusp-slicer[state=done]").waitFor();
   expect(complaints).toEqual([]);
 });
@@ -114,18 +114,18 @@ function refused(system: string): unknown {
 test("a worker that cannot start rejects with a code of its own, whatever stands in its way", async () => {
   const gone = await serveFolder(folder);
   await gone.close();
-  await open("", policyFor("http://127.0.0.1:*", "blob:"));
+  await open("", policyFor("http://127.0.0.1:*"));
   for (const assets of [`${cdn.address}nowhere/`, mistyped.address, closed.address, gone.address]) {
-    expect(await failures(assets)).toEqual(refused(`${assets}worker.js could not be loaded`));
+    expect(await failures(assets)).toEqual(refused(expect.stringContaining(`${assets}worker.js`) as string));
   }
   await page.context().close();
 
-  await open("", policyFor(origin, "blob:").replace(/worker-src [^;]*/, "worker-src 'none'"));
+  await open("", policyFor(origin).replace(/worker-src [^;]*/, "worker-src 'none'"));
   expect(await failures(cdn.address)).toEqual(refused(`${cdn.address}worker.js could not be loaded`));
   await page.waitForSelector("cusp-slicer[state=error]");
   expect(await page.getByRole("alert").innerText()).toContain("tell whoever runs it");
   await page.context().close();
 
-  await open("", `${policyFor(origin, "blob:")}; ${TRUSTED_TYPES.replace("cusp ", "")}`);
+  await open("", `${policyFor(origin)}; ${TRUSTED_TYPES.replace("cusp ", "")}`);
   expect(await failures(cdn.address)).toEqual(refused(expect.stringContaining("TrustedScriptURL") as string));
 });

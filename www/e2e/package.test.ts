@@ -37,7 +37,7 @@ async function consumer(name: string, module: string): Promise<string> {
 /** @param others an origin that the page has its scripts from, in place of its own */
 async function works(folder: string, ownGlobals: (name: string) => boolean = () => false, others?: Served): Promise<void> {
   await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
-  const policy = others === undefined ? undefined : policyFor(new URL(others.address).origin, "blob:");
+  const policy = others === undefined ? undefined : policyFor(new URL(others.address).origin);
   const look = async ({ page, globals }: Ran): Promise<void> => {
     const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
     expect(await headless.getAttribute("data-headless")).toMatch(/^2 ball.stl \d{3} (cpu|gpu) true$/);

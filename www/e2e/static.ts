@@ -8,9 +8,9 @@ import type { Served } from "./serve.js";
 /** What the element needs of a page's policy, and nothing more: see docs/embed.md. */
 export const ELEMENT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
 
-/** The same where the package is on another origin, whose worker starts from a `blob:` or, in a sandboxed frame, from a `data:`. */
-export const policyFor = (origin: string, start: "blob:" | "data:"): string =>
-  `default-src 'none'; script-src 'self' ${origin} 'wasm-unsafe-eval'; worker-src ${start} ${origin}; connect-src 'self' ${origin}`;
+/** The same where the package is on another origin, whose worker starts from a `blob:`. */
+export const policyFor = (origin: string): string =>
+  `default-src 'none'; script-src 'self' ${origin} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self' ${origin}`;
 
 /** Allows other origins to use what is served. */
 export const ALLOW_ALL = { "access-control-allow-origin": "*" } as const;

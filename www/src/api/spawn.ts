@@ -26,16 +26,16 @@ interface Policy {
 /** Starts the slicer's worker. Throws `worker-failed` if the browser refuses to. */
 export function spawnWorker(assets: Assets): WorkerHandle {
   let script: Script;
-  let start: string;
+  let start: Script;
   let worker: Worker;
   try {
     script = assets === null ? bundled() : { address: within(assets, "worker.js"), options: { type: "module", name: "cusp-slicer" } };
     start = fromHere(script);
-    worker = new Worker(trusted(start), script.options);
+    worker = new Worker(trusted(start.address), start.options);
   } catch (error) {
     throw broke("worker-failed", error);
   }
-  worker.addEventListener("message", () => URL.revokeObjectURL(start), { once: true });
+  worker.addEventListener("message", () => URL.revokeObjectURL(start.address), { once: true });
   listenTo(worker);
   return {
     remote: Comlink.wrap<SlicerWorker>(worker),
@@ -73,17 +73,30 @@ function bundled(): Script {
   }
 }
 
-/** An address that a worker may start from: pages start none from another origin, but it may import a script from there, if that allows it (CORS). */
-function fromHere({ address, options }: Script): string {
+/** A script that a worker may start from: pages start none from another origin, but theirs may import one from there, if that allows it (CORS). */
+function fromHere(script: Script): Script {
+  const { address, options } = script;
   const { protocol, origin } = new URL(address, location.href);
-  if (!/^https?:$/.test(protocol) || origin === globalThis.origin) return address;
-  // No dynamic import, which would be over only after the first messages.
-  const quoted = JSON.stringify(address);
-  const code = options.type === "module" ? `import ${quoted};` : `importScripts(${quoted});`;
-  // In a sandboxed frame Chromium starts no module from a blob.
-  const isOpaque = globalThis.origin === "null";
-  return isOpaque ? `data:text/javascript,${encodeURIComponent(code)}` : URL.createObjectURL(new Blob([code], { type: "text/javascript" }));
+  if (!/^https?:$/.test(protocol) || origin === globalThis.origin) return script;
+  const code = options.type === "module" ? importing(address) : `importScripts(${JSON.stringify(address)});`;
+  const blob = new Blob([code], { type: "text/javascript" });
+  // In a sandboxed frame Chromium starts no module from a blob, and WebKit reads no file in a worker from a `data:`.
+  return { address: URL.createObjectURL(blob), options: { ...options, type: "classic" } };
 }
+
+/** Imports a module, and hands it the messages that have arrived by then. */
+const importing = (address: string): string => `
+const early = [];
+const keep = (event) => early.push(event);
+addEventListener("message", keep);
+import(${JSON.stringify(address)}).then(
+  () => {
+    removeEventListener("message", keep);
+    for (const { data, ports } of early) dispatchEvent(new MessageEvent("message", { data, ports }));
+  },
+  // The page hears of no rejection, but of an error.
+  (error) => setTimeout(() => { throw error; }),
+);`;
 
 let policy: Policy | undefined;
 
