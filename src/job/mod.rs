@@ -40,8 +40,8 @@ pub use options_error::OptionsError;
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
 pub use plate::{
-    ModelOptions, ModelPrintability, Placement, Plate, PlateModelReport, PlateOptions, PlateReport,
-    PlatesReport,
+    ModelOptions, ModelPrintability, Placement, Plate, PlateModelReport, PlateOptions,
+    PlatePrintability, PlateReport, PlatesReport,
 };
 pub use prepared::{Hollowed, Supported};
 pub use report::*;

@@ -21,6 +21,8 @@ pub struct PlannedModel {
     pub measured: Arc<Measured>,
     /// The model, by its index in the job.
     pub model: usize,
+    /// Turns of 15° about z on its plate.
+    pub turns: u32,
     /// Its own tolerance, in place of the plan's.
     pub tolerance: Option<f64>,
     /// How often it is printed.
@@ -33,6 +35,7 @@ impl PlannedModel {
         Self {
             measured: Arc::clone(measured),
             model: 0,
+            turns: 0,
             tolerance: None,
             copies: 1,
         }

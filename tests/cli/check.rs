@@ -1,8 +1,10 @@
 //! `check`: findings, limits and verdicts.
 
+use glam::Vec3;
+use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{assert_fails, json, model, on_cpu};
+use super::{assert_fails, cusp, json, model, on_cpu};
 use crate::common::{binary_stl, solids};
 
 /// A hollow ball, whose inside no hole drains.
@@ -91,4 +93,47 @@ fn limits_that_cannot_be_used_are_named() {
         1,
         "absent.json",
     );
+}
+
+#[test]
+fn each_model_of_a_job_is_checked_in_the_layers_of_its_plate() {
+    let folder = TempDir::new().unwrap();
+    let mut floating = solids::cuboid(Vec3::new(6.0, 6.0, 1.0));
+    let ball = solids::sphere(2.0, 3);
+    floating.extend(solids::moved(&ball, Vec3::new(3.0, 3.0, 6.0)));
+    model(&folder, "floating.stl", &binary_stl(&floating));
+    model(&folder, "cube.stl", &binary_stl(&solids::cube(5.0)));
+    let job = r#"{
+        "models": [{ "file": "floating.stl" }, { "file": "cube.stl", "copies": 3 }],
+        "options": { "pixels": [400, 300], "pitch_mm": 0.1, "backend": "cpu" }
+    }"#;
+    let job = model(&folder, "job.json", job.as_bytes());
+    let output = cusp(&["check", &job, "--json"]);
+    assert_eq!(output.status.code(), Some(1));
+    let checked: Value = serde_json::from_slice(&output.stdout).unwrap();
+    assert_eq!(checked["verdict"], "reject");
+    let [floating, cube] = &checked["plates"][0]["models"].as_array().unwrap()[..] else {
+        panic!("{checked}");
+    };
+    let alone: Value = serde_json::from_slice(
+        &on_cpu(&[
+            "check",
+            &folder.path().join("floating.stl").display().to_string(),
+            "--pixels",
+            "400x300",
+            "--pitch",
+            "0.1",
+            "--json",
+        ])
+        .stdout,
+    )
+    .unwrap();
+    assert_eq!(floating["counts"], alone["counts"]);
+    assert_eq!(
+        (&cube["model"], &cube["verdict"]),
+        (&1.into(), &"ok".into())
+    );
+    let text = String::from_utf8(cusp(&["check", &job]).stdout).unwrap();
+    assert!(text.contains("floating.stl\nverdict   reject"), "{text}");
+    assert!(text.contains("cube.stl\nverdict   ok"), "{text}");
 }

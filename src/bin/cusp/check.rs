@@ -5,11 +5,13 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use cusp_slicer::inspect::{Finding, Limits, Printability, Severity, Verdict};
-use cusp_slicer::job::Report;
+use cusp_slicer::job::{PlatePrintability, Report};
 use serde::Serialize;
 
 use crate::arguments::Studying;
 use crate::files::{Failure, in_file, read_json};
+use crate::job_file::{JobFile, job_file, read_job};
+use crate::plate::Places;
 use crate::slice::make_plan;
 use crate::terminal::{Bar, print, print_json, warn};
 use crate::watch::stop_on_interrupt;
@@ -25,6 +27,30 @@ pub struct Checking {
     /// Findings of a kind to show, of which the largest come first
     #[arg(long, value_name = "N", default_value_t = 5)]
     show: usize,
+}
+
+/// What `check` prints of the plates of a job as JSON.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct CheckedPlates {
+    /// The largest severity of all findings.
+    verdict: Verdict,
+    /// What was found on each plate.
+    plates: Vec<CheckedPlate>,
+    /// What they were checked by.
+    limits: Limits,
+}
+
+/// A plate that was checked.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+struct CheckedPlate {
+    #[serde(flatten)]
+    printability: PlatePrintability,
+    /// Number of layers.
+    layers: usize,
+    /// Height of the print.
+    height_mm: f64,
 }
 
 /// What `check` prints as JSON.
@@ -47,6 +73,9 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
     studying.choices.check("check");
     let limits = checking.limits.as_deref().map(read_limits).transpose()?;
     let limits = limits.unwrap_or_default();
+    if let Some(file) = job_file(std::slice::from_ref(&studying.model))? {
+        return check_plates(checking, file, limits);
+    }
     let settings = studying.choices.settings()?;
     let mut slicer = settings.reading.load(&studying.model)?;
     stop_on_interrupt();
@@ -74,6 +103,56 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
         })?;
     } else {
         print(&describe(&printability, &report, checking.show))?;
+    }
+    if verdict == Verdict::Reject {
+        return Err(Failure::TOLD);
+    }
+    Ok(())
+}
+
+/// Checks each model of each plate of a job.
+fn check_plates(checking: &Checking, file: JobFile, limits: Limits) -> Result<(), Failure> {
+    let Checking { studying, show, .. } = checking;
+    let models = std::slice::from_ref(&studying.model);
+    let mut job = read_job(
+        "check",
+        Some(file),
+        models,
+        &Places::default(),
+        &studying.choices,
+    )?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let reports = job.make_plan(&bar)?.plates;
+    let mut progress = |stage, fraction| bar.report(stage, fraction);
+    let mut plates = Vec::new();
+    let mut texts = Vec::new();
+    for (number, report) in reports.iter().enumerate() {
+        let found = job.plate.inspect(number, &limits, &mut progress);
+        let printability = found.map_err(|error| job.failure(&error))?;
+        for model in &printability.models {
+            let name = job.name(model.model);
+            let described = describe(&model.found, report, *show);
+            texts.push(format!("plate {}, {name}\n{described}", number + 1));
+        }
+        plates.push(CheckedPlate {
+            printability,
+            layers: report.layers,
+            height_mm: report.height_mm,
+        });
+    }
+    drop(bar);
+    reports.iter().for_each(|report| warn(&report.warnings));
+    let verdicts = plates.iter().map(|plate| plate.printability.verdict);
+    let verdict = verdicts.max().unwrap_or(Verdict::Ok);
+    if studying.json {
+        print_json(&CheckedPlates {
+            verdict,
+            plates,
+            limits,
+        })?;
+    } else {
+        print(&texts.join("\n\n"))?;
     }
     if verdict == Verdict::Reject {
         return Err(Failure::TOLD);

@@ -17,7 +17,7 @@ use crate::values::not_negative;
 use crate::watch::{keep_within, stop_on_interrupt};
 
 /// How models are arranged.
-#[derive(Args)]
+#[derive(Default, Args)]
 pub struct Places {
     /// Copies of each model that names no number of its own, as MODEL:3 does
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Plate")]
@@ -112,7 +112,7 @@ impl Job {
         report.map_err(|error| self.failure(&error))
     }
 
-    fn name(&self, model: usize) -> std::path::Display<'_> {
+    pub fn name(&self, model: usize) -> std::path::Display<'_> {
         self.paths[model].display()
     }
 }

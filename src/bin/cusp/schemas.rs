@@ -17,7 +17,7 @@ use serde_json::{Value, json};
 
 use crate::batch::BatchLine;
 use crate::calibrate::Calibrated;
-use crate::check::Checked;
+use crate::check::{Checked, CheckedPlates};
 use crate::convert::Converted;
 use crate::files::Failed;
 use crate::job_file::JobFile;
@@ -114,6 +114,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("batch-info", output::<BatchLine<MeshInfo>>()),
         ("batch-plan", output::<BatchLine<Report>>()),
         ("calibrate", output::<Calibrated>()),
+        ("check-plates", output::<CheckedPlates>()),
         ("check", output::<Checked>()),
         ("compare", output::<Compared>()),
         ("contours", output::<ContoursReport>()),

@@ -227,7 +227,9 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
         let found = found.transpose();
         plates.push(VerifiedPlate {
             plan: matching,
-            printability: found.map_err(|error| Failure::in_file(path, &error))?,
+            printability: found
+                .map_err(|error| Failure::in_file(path, &error))?
+                .map(|it| it.models),
         });
         if let Some((print_file, sent)) = &sent {
             let written = plate.write_archive(0, Vec::with_capacity(sent.len()), &mut progress);

@@ -7,15 +7,30 @@ use serde::Serialize;
 use super::super::stage::{Stage, StageProgress};
 use super::Plate;
 use crate::Error;
-use crate::inspect::{self, Limits, Printability};
+use crate::arrange::TURN_DEG;
+use crate::inspect::{self, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
 
-/// What will fail on a model of a plate. Copies are all alike.
+/// What will fail on a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct PlatePrintability {
+    /// The largest severity of all findings.
+    pub verdict: Verdict,
+    /// What was found on each model.
+    pub models: Vec<ModelPrintability>,
+}
+
+/// What will fail on a model of a plate. Copies that stand alike are all alike.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct ModelPrintability {
     /// The model, by its index in the job. One that also stands turned about z is there once for each turn.
     pub model: usize,
+    /// Turn about z of the copies that it is about. Findings are at places of the turned model, as if it stood in the middle.
+    pub turn_deg: u32,
     /// What was found on it, as if it stood alone.
     #[serde(flatten)]
     pub found: Printability,
@@ -31,7 +46,7 @@ impl Plate {
         plate: usize,
         limits: &Limits,
         progress: &mut StageProgress<'_>,
-    ) -> Result<Vec<ModelPrintability>, Error> {
+    ) -> Result<PlatePrintability, Error> {
         let current = self.current(plate)?;
         let planned = Arc::clone(&current.planned);
         let (masks, _) = current.seen()?;
@@ -43,9 +58,15 @@ impl Plate {
             let found = inspect::inspect(&stamp.masks, &planned.plan, limits, &held, &mut within);
             Ok(ModelPrintability {
                 model: model.model,
+                turn_deg: model.turns * TURN_DEG,
                 found: found.map_err(LdiError::from)?,
             })
         });
-        found.collect()
+        let models = found.collect::<Result<Vec<_>, Error>>()?;
+        let verdicts = models.iter().map(|model| model.found.verdict);
+        Ok(PlatePrintability {
+            verdict: verdicts.max().unwrap_or(Verdict::Ok),
+            models,
+        })
     }
 }

@@ -13,7 +13,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 pub(super) use claimed::ClaimedPlate;
-pub use inspect::ModelPrintability;
+pub use inspect::{ModelPrintability, PlatePrintability};
 pub use options::{ModelOptions, Placement, PlateOptions};
 pub use report::{PlateModelReport, PlateReport, PlatesReport};
 
@@ -321,6 +321,7 @@ fn models_of(
     let planned = standing.iter().map(|(shape, copies)| PlannedModel {
         measured: Arc::clone(&shape.measured),
         model: shape.model,
+        turns: shape.turns,
         tolerance: own(shape.model),
         copies: copies.len(),
     });

@@ -145,6 +145,31 @@ impl Plate {
         self.plate.mask(plate, layer).map_err(throw)
     }
 
+    /// What will fail when a plate, from 0, is printed, by these limits.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan or no such plate, or if a limit is out of bounds.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "PlatePrintability")]
+    pub fn inspect(
+        &mut self,
+        plate: usize,
+        limits: Ts<Limits>,
+        #[wasm_bindgen(
+            unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+        )]
+        progress: &Function,
+    ) -> Result<JsValue, JsValue> {
+        let limits = given(&limits)?;
+        let found = self
+            .plate
+            .inspect(plate, &limits, &mut progress_to(progress));
+        Ok(to_js(&found.map_err(throw)?))
+    }
+
     /// Writes the print file of a plate, from 0, by calling `take` with one chunk after another.
     ///
     /// # Errors

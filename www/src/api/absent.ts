@@ -18,6 +18,7 @@ export function absentSlicer(): Slicer {
     problems: reject,
     plan: reject,
     mask: reject,
+    check: reject,
     export: reject,
     price: reject,
   };

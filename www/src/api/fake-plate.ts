@@ -2,7 +2,7 @@
  * The plate of fake workers, for tests: it keeps the texts of its files, and reports each model's copies as those that it has. The
  * supports of a model are its number.
  */
-import type { MeshInfo, Placement, PlateWorker, Report } from "./wire.js";
+import type { MeshInfo, ModelPrintability, Placement, PlateWorker, Report } from "./wire.js";
 
 /** @param work hears of each call, and may hang or throw */
 export function fakePlate(work: (what: string) => Promise<void> = async () => undefined): PlateWorker {
@@ -44,6 +44,7 @@ export function fakePlate(work: (what: string) => Promise<void> = async () => un
         ...(options?.supports !== undefined && { supports: own.map((_, model) => Float32Array.of(model)) }),
       };
     },
+    inspectPlate: (plate) => ({ verdict: "ok", models: [{ model: plate, turn_deg: 0 } as ModelPrintability] }),
     plateMask: (plate, layer) => {
       void work(`mask ${layer} of plate ${plate}`);
       return new Uint8Array(2);

@@ -33,7 +33,7 @@ export type { WarningCode, WarningDetails } from "./warning.js";
 export type { IndexedFacets, Source } from "./source.js";
 export type { Watch } from "./calls.js";
 export type { Found, OrientCall } from "./orient.js";
-export type { AddCall, ModelChange, Plate, PlateCall, PlateModel, PlatesPlan } from "./plate.js";
+export type { AddCall, ModelChange, Plate, PlateCall, PlateCheck, PlateModel, PlatesPlan } from "./plate.js";
 export type { Ordered, OrderedPlates } from "./price.js";
 export { SCHEMA, type Mask, type PrintFile } from "./results.js";
 export type * from "./wire.js";

@@ -8,7 +8,7 @@ import { Calls, shed, silent, type Compiled, type Life, type Watch, type WorkerH
 import type { ModelFile, Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
-import type { ArrangeError, MeshInfo, OnProgress, Placement, PlateOptions, PlatesReport, Price, Prices, ProfiledPlates, ReadOptions } from "./wire.js";
+import type { ArrangeError, Limits, MeshInfo, OnProgress, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, Prices, ProfiledPlates, ReadOptions } from "./wire.js";
 
 /** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
 export interface Loaded {
@@ -89,6 +89,14 @@ export class PlateClient {
     return this.#calls.run(watch, null, async (life) => {
       const of = await this.#restorePlan(life, silent);
       return { bits: await life.handle.remote.plateMask(plate, layer), of };
+    });
+  }
+
+  /** What will fail when a plate of the last good plan is printed. */
+  inspect(plate: number, limits: Limits, watch: Watch): Promise<PlatePrintability> {
+    return this.#calls.run(watch, null, async (life, _, progress) => {
+      await this.#restorePlan(life, silent);
+      return life.handle.remote.inspectPlate(plate, limits, progress);
     });
   }
 

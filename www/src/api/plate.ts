@@ -18,7 +18,7 @@ import { PlateClient, type Loaded } from "./plate-client.js";
 import type { OrderedPlates } from "./price.js";
 import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { ArrangeError, Arranging, MeshInfo, ModelOptions, Options, Placement, PlateOptions, Price, Prices, Profiled, ReadOptions, Report } from "./wire.js";
+import type { ArrangeError, Arranging, Limits, MeshInfo, ModelOptions, Options, Placement, PlateOptions, PlatePrintability, Price, Prices, Profiled, ReadOptions, Report } from "./wire.js";
 
 /** A model of a plate. */
 export interface PlateModel extends Versioned {
@@ -42,6 +42,9 @@ export interface AddCall extends Watch {
   /** Choices that the file leaves: a plate of a 3MF project, surfaces as models, curved caps. */
   reading?: ReadOptions;
 }
+
+/** What will fail when a plate is printed, and the verdict. */
+export interface PlateCheck extends Versioned, PlatePrintability {}
 
 /** How copies are arranged, or where they stand. */
 export interface PlateCall extends Watch {
@@ -86,6 +89,8 @@ export interface Plate {
   plan(options?: Options, call?: PlateCall): Promise<PlatesPlan>;
   /** The mask of a layer of a plate of the last plan, both counted from 0. */
   mask(plate: number, layer: number, call?: Watch): Promise<Mask>;
+  /** What will fail when a plate of the last plan is printed, model by model, as `slicer.check()` says it of one. */
+  check(plate: number, limits?: Limits, call?: Watch): Promise<PlateCheck>;
   /** The print file of a plate of the last plan, counted from 0. */
   export(plate: number, call?: Watch): Promise<PrintFile>;
   /** What all copies of the last plan cost by the prices of a shop, each with its share of its plate's time. */
@@ -187,6 +192,10 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
       const { bits, of } = await client.mask(plate, layer, call);
       const { width, height } = reportOf(of.report.plates, plate).mask;
       return { layer, width, height, bits };
+    },
+    async check(plate, limits = {}, call = {}) {
+      checkWhole("plate", plate);
+      return { schema: SCHEMA, ...(await client.inspect(plate, limits, call)) };
     },
     async export(plate, call = {}) {
       checkWhole("plate", plate);

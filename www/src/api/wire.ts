@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task };
 export type {
   Arranging,
   Backend,
@@ -32,6 +32,7 @@ export type {
   PlateChoice,
   PlannerReport,
   BestUniform,
+  ModelPrintability,
   PlateModelReport,
   PlateReport,
   PriceKind,
@@ -195,6 +196,8 @@ export interface PlateWorker {
   plateProblems(options: PlateOptions): ArrangeError[];
   planPlate(options: PlateOptions, progress: OnProgress): Promise<ProfiledPlates>;
   plateMask(plate: number, layer: number): Uint8Array;
+  /** What will fail when a plate of the last plan is printed. */
+  inspectPlate(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
   archivePlate(plate: number, progress: OnProgress): Blob;
 }
 
