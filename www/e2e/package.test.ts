@@ -2,7 +2,7 @@
 import { execFileSync, spawnSync } from "node:child_process";
 import { cp, readFile, writeFile } from "node:fs/promises";
 import { delimiter, join } from "node:path";
-import type { Browser } from "playwright-core";
+import type { Browser, Page } from "playwright-core";
 import { build, createServer, type InlineConfig } from "vite";
 import { afterAll, beforeAll, expect, test } from "vitest";
 import webpack from "webpack";
@@ -72,20 +72,33 @@ async function component(framework: string, use: string, files: Readonly<Record<
 }
 
 /** Expects the price that the snippets show beside the element. */
-async function priced(served: Served): Promise<void> {
+async function priced(served: Served, look: (page: Page) => Promise<void> = async () => undefined): Promise<void> {
   await visit(browser, served, async ({ page }) => {
     await expect.poll(() => page.locator("output").innerText()).toMatch(/^\d+\.\d\d €$/);
+    await look(page);
   });
 }
 
-/** Files that put the guide's components on a page. */
+/** Files that put the guide's components on a page. React's renders anew at each event, which it counts. */
 const REACT = {
   "src/main.js": `
 import { createElement } from "react";
 import { createRoot } from "react-dom/client";
 import Slicer from "./Slicer.jsx";
-createRoot(document.querySelector("#root")).render(createElement(Slicer));`,
+const root = createRoot(document.querySelector("#root"));
+const counts = document.body.dataset;
+for (const name of ["plan", "price", "check", "change", "error"]) {
+  document.addEventListener("cusp-" + name, () => {
+    counts[name] = String(Number(counts[name] ?? 0) + 1);
+    root.render(createElement(Slicer));
+  });
+}
+root.render(createElement(Slicer));`,
 };
+
+/** Objects that are new at each render. */
+const LITERALS = `printer={{ pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] }}
+        resins={[{ name: "Grey" }]} prices={{ currency: "EUR", setup: 4 }} limits={{ wall_mm: 0.5 }}`;
 
 const SVELTE = {
   "vite.config.js": `
@@ -129,14 +142,19 @@ test("built by Vite, with a base on another origin", async () => {
   await worksApart(await vite(root, { base: others.address }), others);
 });
 
-test("the guide's component for React, on Vite's development server, which bundles packages beforehand", async () => {
+test("the guide's component for React, on Vite's development server, which bundles packages beforehand; however often it is rendered, there is one plan", async () => {
   // The browser asks for an icon, which this server does not have.
   const icon = `<link rel="icon" href="data:," />`;
   const root = await component("React", "development", { ...REACT, "index.html": page("").replace("</head>", `${icon}</head>`) });
+  const own = join(root, "src/Slicer.jsx");
+  await writeFile(own, (await readFile(own, "utf8")).replace('printer="saturn-3-ultra"', LITERALS));
   const server = await createServer({ root, logLevel: "error", server: { host: "127.0.0.1", port: await freePort() } });
   await server.listen();
   const [address = ""] = server.resolvedUrls?.local ?? [];
-  await priced({ address, close: () => server.close() });
+  await priced({ address, close: () => server.close() }, async (page) => {
+    await page.waitForSelector("body[data-check]");
+    expect(await page.evaluate(() => ({ ...document.body.dataset }))).toEqual({ plan: "1", price: "1", check: "1" });
+  });
 });
 
 test("built by webpack, with its scripts on the page's origin and on another", async () => {

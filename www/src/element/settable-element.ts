@@ -8,6 +8,7 @@ import { Reports } from "./reports.js";
 import { Attributes, settingsOf } from "./state/attributes.js";
 import { METRICS } from "./state/metric.js";
 import { PANELS, type Panel } from "./state/panel-names.js";
+import { copyOf, isEqual } from "./state/plain.js";
 import { Session } from "./state/session.js";
 import { fromAddress, parse, toAddress } from "./state/settings.js";
 
@@ -83,7 +84,7 @@ export abstract class SettableElement extends LitElement {
     return this.session.settings.printer;
   }
   set printer(printer: string | Printer | null) {
-    this.judged.set("printer", printer);
+    this.judged.set("printer", copyOf(printer));
   }
 
   /** Name of one of {@link resins}; empty for the default one. */
@@ -155,7 +156,7 @@ export abstract class SettableElement extends LitElement {
   }
   set backend(backend: Backend | null) {
     const read = this.judged.read("backend", backend);
-    if (read === undefined) return;
+    if (read === undefined || read === this.session.backend) return;
     this.session.backend = read;
     this.session.replan();
   }
@@ -166,7 +167,7 @@ export abstract class SettableElement extends LitElement {
   }
   set gpuMethod(method: GpuMethod | null) {
     const read = this.judged.read("gpu-method", method);
-    if (read === undefined) return;
+    if (read === undefined || read === this.session.gpuMethod) return;
     this.session.gpuMethod = read;
     this.session.replan();
   }
@@ -175,16 +176,17 @@ export abstract class SettableElement extends LitElement {
   get weights(): Float32Array | null {
     return this.session.weights;
   }
-  set weights(weights: Float32Array | null) {
-    this.session.setWeights(weights, true);
+  set weights(weights: Float32Array | null | undefined) {
+    if (!isEqual(weights ?? null, this.session.weights)) this.session.setWeights(copyOf(weights ?? null), true);
   }
 
   /** Resins to choose from; each needs a name. */
   get resins(): readonly Resin[] {
     return this.session.resins;
   }
-  set resins(resins: readonly Resin[]) {
-    this.session.resins = resins;
+  set resins(resins: readonly Resin[] | null | undefined) {
+    if (isEqual(resins ?? [], this.session.resins)) return;
+    this.session.resins = copyOf(resins ?? []);
     this.judged.offered();
     this.requestUpdate();
   }
@@ -193,8 +195,8 @@ export abstract class SettableElement extends LitElement {
   get prices(): Prices | null {
     return this.session.pricing.asked?.prices ?? null;
   }
-  set prices(prices: Prices | null) {
-    this.#ask(prices, this.#finish);
+  set prices(prices: Prices | null | undefined) {
+    this.#ask(copyOf(prices ?? null), this.#finish);
   }
 
   /** The finish to price, by its name in {@link prices}; null for none. */
@@ -219,8 +221,8 @@ export abstract class SettableElement extends LitElement {
   get limits(): Limits | null {
     return this.session.checks.limits;
   }
-  set limits(limits: Limits | null) {
-    this.session.checks.limits = limits;
+  set limits(limits: Limits | null | undefined) {
+    this.session.checks.limits = copyOf(limits ?? null);
   }
 
   /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */
@@ -234,7 +236,6 @@ export abstract class SettableElement extends LitElement {
 
   #ask(prices: Prices | null, finish: string | null): void {
     this.session.pricing.asked = prices === null ? null : { prices, ...(finish !== null && { finish }) };
-    this.requestUpdate();
   }
 
   /** An invalid attribute concerns the page's developer: the element does not show it to customers. */

@@ -5,6 +5,7 @@
 import { SlicerError } from "../../api/error.js";
 import { ATTRIBUTES, SETTING_NAMES, SETTINGS, type SettingName } from "../properties.js";
 import { METRICS } from "./metric.js";
+import { isEqual } from "./plain.js";
 import type { Preferences } from "./preferences.js";
 import { noneOf, type Read, type Reader, type Wrong } from "./readers.js";
 import { DEFAULT_SETTINGS, defaultsOf, limitsFor, withTolerance, type Fault, type Settings } from "./settings.js";
@@ -35,6 +36,8 @@ export class Attributes {
   #turn: { base: Settings; said: Map<SettingName, unknown>; values: Values } | null = null;
   #given = new Map<SettingName, Given>();
   #errors: SlicerError[] = [];
+  /** The last wrong value of each attribute that has had no good one since: a page that renders on errors would set it for ever. */
+  readonly #told = new Map<Name, unknown>();
   #isScheduled = false;
 
   /** @param tell receives an error for each invalid value, once the script that set it has ended */
@@ -45,9 +48,13 @@ export class Attributes {
 
   /** The value of an attribute; null if it is absent or empty, undefined if it is invalid. Faults are reported. */
   read<N extends Name>(name: N, said: unknown): Value<N> | null | undefined {
-    if (said === null || said === undefined || (typeof said === "string" && said.trim() === "")) return null;
-    const { value, wrong } = ATTRIBUTES[name].read(said) as Read<Value<N>>;
-    if (wrong !== undefined) this.#note(name, said, wrong, value !== undefined);
+    const isNothing = said === null || said === undefined || (typeof said === "string" && said.trim() === "");
+    const { value, wrong }: Read<Value<N>> = isNothing ? { value: null } : (ATTRIBUTES[name].read(said) as Read<Value<N>>);
+    if (wrong === undefined) this.#told.delete(name);
+    else if (!this.#told.has(name) || !isEqual(said, this.#told.get(name))) {
+      this.#told.set(name, said);
+      this.#note(name, said, wrong, value !== undefined);
+    }
     return value;
   }
 

@@ -7,6 +7,7 @@ import type { Mask, OrderedPlates, Slicer } from "../../api/index.js";
 import type { Price, Prices } from "../../api/wire.js";
 import type { Checks } from "./checks.js";
 import type { Curve } from "./curve.js";
+import { isEqual } from "./plain.js";
 import type { Result } from "./result.js";
 
 /** The plan shown and the selected layer. */
@@ -92,9 +93,11 @@ export class Beside {
   }
 
   set asked(asked: Asked | null) {
+    if (isEqual(asked, this.#asked)) return;
     this.#asked = asked;
     this.#priceOf = null;
     if (asked === null) this.price = null;
+    this.#host.changed();
     void this.fetch();
   }
 

@@ -3,6 +3,7 @@ import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { WALL_MM } from "../../view/walls/scale.js";
+import { isEqual } from "./plain.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -46,6 +47,7 @@ export class Checks {
     return this.#limits;
   }
   set limits(limits: Limits | null) {
+    if (isEqual(limits, this.#limits)) return;
     this.#limits = limits;
     this.#host.changed();
     this.#host.wanted();

@@ -1,6 +1,7 @@
 /** What the user wants: the settings, with the steps to undo, and the printers and resins to choose from. */
 import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
+import { isEqual } from "./plain.js";
 import type { PlateState } from "./plate.js";
 import { readPrinter } from "./printer.js";
 import { changed, check, type Faults, type Offered, type Settings } from "./settings.js";
@@ -67,14 +68,14 @@ export abstract class Preferences implements Offered {
     return this.#history.canRedo;
   }
 
-  /** Applies settings from the page, including fixed ones, without an undo step. */
+  /** Applies settings from the page, including fixed ones, without an undo step. Those that it has change nothing. */
   preset(patch: Partial<Settings>): void {
-    this.#set(changed(this.settings, patch), DEBOUNCE_MS);
+    this.#take(changed(this.settings, patch));
   }
 
   /** Replaces all settings except fixed ones, as from a URL, without an undo step. */
   restore(settings: Settings): void {
-    this.#set(this.#allowed(settings), DEBOUNCE_MS);
+    this.#take(this.#allowed(settings));
   }
 
   /**
@@ -83,7 +84,7 @@ export abstract class Preferences implements Offered {
    */
   change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
     this.note(kind);
-    this.#set(this.#allowed(changed(this.settings, patch)), DEBOUNCE_MS);
+    this.#set(this.#allowed(changed(this.settings, patch)));
   }
 
   /** Makes an undo step of the change that follows. */
@@ -129,8 +130,12 @@ export abstract class Preferences implements Offered {
     return { ...settings, ...kept };
   }
 
-  #set(settings: Settings, delay_ms: number): void {
+  #take(settings: Settings): void {
+    if (!isEqual(settings, this.settings)) this.#set(settings);
+  }
+
+  #set(settings: Settings): void {
     this.settings = settings;
-    this.preferred(delay_ms);
+    this.preferred(DEBOUNCE_MS);
   }
 }
