@@ -52,8 +52,20 @@ async function dropBoth(page: Page): Promise<void> {
 
 const listed = (page: Page): Promise<string[]> => page.locator("cusp-plate .name").allInnerTexts();
 
-test("two of them work side by side, each with its own model, settings and language", async () => {
-  const page = await start(
+test("two of them work side by side, each with its own model, settings and language; one out of view fetches nothing, and all share one module", async () => {
+  const page = await start("");
+  const modules: string[] = [];
+  page.on("request", (request) => void (request.url().endsWith(".wasm") && modules.push(request.url())));
+  await page.evaluate(() => {
+    const far = Object.assign(document.createElement("cusp-slicer"), { id: "far" });
+    far.style.marginTop = "200vh";
+    document.body.append(far);
+  });
+  await page.waitForSelector("#far[state=empty]");
+  // Browsers say what is in view after a frame.
+  await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
+  expect([modules, page.workers().length]).toEqual([[], 0]);
+  await page.evaluate((markup) => document.body.prepend(document.createRange().createContextualFragment(markup)),
     `<cusp-slicer id="a" src="ball.stl" tolerance="0.05" locale="en"></cusp-slicer>` +
       `<shop-slicer id="b" src="ball.stl" layer-min="0.04" layer-max="0.1" metric="area" tolerance="0.2" panels="plan"></shop-slicer>`,
   );
@@ -82,6 +94,10 @@ test("two of them work side by side, each with its own model, settings and langu
     // The last steps may come after the plan, and are then not reported.
     expect(done.at(-1)).toBeGreaterThan(0);
   }
+  const workers = page.workers().length;
+  await page.locator("#far").scrollIntoViewIfNeeded();
+  await expect.poll(() => page.workers().length).toBe(workers + 1);
+  expect(modules).toHaveLength(1);
 });
 
 test("methods load, plan, export and cancel; a shop takes the print file instead of the browser, and its warnings", async () => {

@@ -153,7 +153,7 @@ test("the guide's component for React, on Vite's development server, which bundl
   const [address = ""] = server.resolvedUrls?.local ?? [];
   await priced({ address, close: () => server.close() }, async (page) => {
     await page.waitForSelector("body[data-check]");
-    expect(await page.evaluate(() => ({ ...document.body.dataset }))).toEqual({ plan: "1", price: "1", check: "1" });
+    expect(await page.evaluate(() => Object.fromEntries(Object.entries(document.body.dataset)))).toEqual({ plan: "1", price: "1", check: "1" });
   });
 });
 

@@ -29,9 +29,9 @@ export interface Watch {
 /** For calls whose progress nobody wants to know. */
 export const silent: OnProgress = told(() => undefined);
 
-/** Holds the compiled module, which all clients share. */
+/** Holds the module, which all clients share, from when the first worker begins to compile it. */
 export interface Compiled {
-  module: WebAssembly.Module | null;
+  module: Promise<WebAssembly.Module> | null;
   /** Where the first worker fetches it. */
   readonly address: string;
 }
@@ -191,10 +191,20 @@ export class Calls<Held> {
       });
     let started = false;
     handle.onBroken((message) => end(broke(started ? "crash" : "worker-failed", message)));
-    const booted = handle.remote.boot(this.#compiled.module ?? this.#compiled.address).then(
-      (module) => {
+    const boot = async (): Promise<unknown> => {
+      const compiled = this.#compiled;
+      while (compiled.module !== null) {
+        const module = await compiled.module.catch(() => null);
+        if (module !== null) return handle.remote.boot(module);
+      }
+      compiled.module = within(handle.remote.boot(compiled.address));
+      // The worker that waits next compiles it.
+      compiled.module.catch(() => (compiled.module = null));
+      return compiled.module;
+    };
+    const booted = boot().then(
+      () => {
         started = true;
-        this.#compiled.module = module;
       },
       (error: unknown) => {
         throw broke("start-failed", error);

@@ -289,6 +289,25 @@ test("a worker that is refused, or whose script cannot be loaded, rejects with w
   expect(log).toEqual(["2: boot, compiling", "2: open a"]);
 });
 
+test("workers that start together compile once; where the first of them is ended, the next one does", async () => {
+  const compiled = { module: null, address: "" };
+  const [first, second] = [0, 1].map(() => new Client(() => new FakeWorker(), compiled));
+  await Promise.all([first?.printers(), second?.printers()]);
+  expect(log).toEqual(["1: boot, compiling", "2: boot"]);
+
+  const anew = { module: null, address: "" };
+  const stuck = new FakeWorker();
+  stuck.remote.boot = () => new Promise(() => undefined);
+  const ended = new Client(() => stuck, anew);
+  const [next, last] = [0, 1].map(() => new Client(() => new FakeWorker(), anew));
+  const failed = expect(ended.printers()).rejects.toMatchObject({ name: "AbortError" });
+  const waiting = [next?.printers(), last?.printers()];
+  await new Promise((resolve) => setTimeout(resolve));
+  ended.rest();
+  await Promise.all([failed, ...waiting]);
+  expect(log.slice(2)).toEqual(["4: boot, compiling", "5: boot"]);
+});
+
 test("an error event from the worker fails the pending call", async () => {
   await caller.open(new Blob(["a"]), watch());
   worker(1).hang = true;

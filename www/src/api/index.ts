@@ -188,15 +188,23 @@ const MOST_HELPERS = 3;
 /** The number of workers if the browser does not report its cores. */
 const FEW_WORKERS = 2;
 
+/** The modules of all slicers of a page, by their addresses. */
+const MODULES = new Map<string, Compiled["module"]>();
+
 export function createSlicer(setup: Setup = {}): Slicer {
   const { assets = null, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (setup.spawn === undefined && globalThis.Worker === undefined) return absentSlicer();
   const folder = typeof assets === "function" ? assets : (): Assets => assets;
   const spawn = setup.spawn ?? ((): WorkerHandle => spawnWorker(folder()));
   const compiled: Compiled = {
-    module: null,
     get address() {
       return wasmAddress(folder());
+    },
+    get module() {
+      return MODULES.get(compiled.address) ?? null;
+    },
+    set module(module) {
+      MODULES.set(compiled.address, module);
     },
   };
   const client = (): Client => new Client(spawn, compiled);

@@ -21,6 +21,7 @@ import type { Result } from "./state/result.js";
 import { saveFile, saveMade } from "./parts/save-file.js";
 import { thumbnailOf } from "./parts/thumbnail.js";
 import { SettableElement } from "./settable-element.js";
+import { whenWanted } from "./when-wanted.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
 
@@ -37,7 +38,7 @@ export abstract class SlicerElement extends SettableElement {
   /** @internal */
   declare dragging: boolean;
 
-  #started = false;
+  #life = new AbortController();
   readonly #explaining = new Explaining(() => this.requestUpdate());
   /** The models that are being added, one after the other. */
   #adding: Promise<unknown> = Promise.resolve();
@@ -58,12 +59,13 @@ export abstract class SlicerElement extends SettableElement {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    if (!this.#started) this.session.start();
-    this.#started = true;
+    this.#life = new AbortController();
+    whenWanted(this, () => this.session.start(), this.#life.signal);
   }
 
   override disconnectedCallback(): void {
     super.disconnectedCallback();
+    this.#life.abort();
     // An element that was only moved is connected again by now.
     queueMicrotask(() => {
       if (this.isConnected) return;

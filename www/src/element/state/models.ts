@@ -51,6 +51,8 @@ export abstract class Models extends Preferences {
     );
   }
 
+  /** Prepares for the first model. */
+  abstract start(): void;
   /** Plans the models now, or after a pause. */
   abstract replan(delay_ms?: number): void;
   /** Plans again after a change of the models: the running plan is for the earlier ones. */
@@ -194,6 +196,7 @@ export abstract class Models extends Preferences {
 
   /** @param reading that of the selected model, in whose place it is read again */
   async #open(source: Source, name?: string, waits = false, reading?: ReadOptions): Promise<Model | null> {
+    this.start();
     this.drop();
     this.dismiss();
     const call = {

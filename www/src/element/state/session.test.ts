@@ -1,4 +1,4 @@
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type LoadCall, type Loaded, type PrintFile } from "../../api/index.js";
 import { model, planOf } from "./fake-slicer.js";
@@ -16,6 +16,15 @@ test("opening a model plans it at once and selects the middle layer", async () =
   expect(session.layer).toBe(5);
   expect(session.mask?.layer).toBe(5);
   expect(session.busy).toBeNull();
+});
+
+test("the list of printers is fetched with the first model or before, once, and again if it did not come", async () => {
+  const printers = vi.spyOn(slicer, "printers").mockRejectedValueOnce(new SlicerError("start-failed", "no", { system: "" }));
+  await planned();
+  expect(printers).toHaveBeenCalledTimes(1);
+  session.start();
+  await planned();
+  expect(printers).toHaveBeenCalledTimes(2);
 });
 
 test("a new plan keeps the height of the selected layer", async () => {

@@ -32,6 +32,7 @@ export class Session extends Models {
   readonly orientation: OrientationSearch;
   readonly checks: Checks;
 
+  #isStarted = false;
   readonly #curve = new Curve();
   readonly #beside: Beside;
   readonly #follower: Follower;
@@ -110,8 +111,10 @@ export class Session extends Models {
     return this.busy === null && this.options !== null ? "ready" : "waiting";
   }
 
-  /** Starts the worker and fetches the list of printers. */
-  start(): void {
+  /** Starts the worker and fetches the list of printers, once. */
+  override start(): void {
+    if (this.#isStarted) return;
+    this.#isStarted = true;
     this.slicer.warm();
     // A worker that does not start is reported by the next call.
     void this.slicer.printers().then(
@@ -120,7 +123,7 @@ export class Session extends Models {
         this.host.offered?.();
         this.changed();
       },
-      () => undefined,
+      () => (this.#isStarted = false),
     );
   }
 
