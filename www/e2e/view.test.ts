@@ -119,7 +119,7 @@ test("the view draws when something has changed, and a new plan sends no geometr
   expect((after["bufferData"] ?? 0) + (after["bufferSubData"] ?? 0)).toBe(0);
 });
 
-test("the view goes on after the GPU was lost and found, and leaves nothing behind when it goes", async () => {
+test("the view says that the GPU was lost, goes on once it is found or when it is asked to, and leaves nothing behind when it goes", async () => {
   const page = await start();
   await page.evaluate(async () => {
     const { harness } = window;
@@ -128,19 +128,28 @@ test("the view goes on after the GPU was lost and found, and leaves nothing behi
   });
   const before = await picture(page);
   const [x, y] = [200, 220];
-  await page.evaluate(async () => {
-    const canvas = window.harness.view.shadowRoot?.querySelector("canvas");
-    const lose = canvas?.getContext("webgl2")?.getExtension("WEBGL_lose_context");
-    const happened = (type: string): Promise<unknown> =>
-      new Promise((resolve) => canvas?.addEventListener(type, resolve, { once: true }));
-    const lost = happened("webglcontextlost");
-    lose?.loseContext();
-    await lost;
-    const restored = happened("webglcontextrestored");
-    setTimeout(() => lose?.restoreContext());
-    await restored;
-    await window.harness.drawn();
-  });
+  const lose = (): Promise<void> =>
+    page.evaluate(() => {
+      const lose = window.harness.view.shadowRoot?.querySelector("canvas")?.getContext("webgl2")?.getExtension("WEBGL_lose_context");
+      lose?.loseContext();
+      Object.assign(window, { restore: () => lose?.restoreContext() });
+    });
+  const alert = page.locator("cusp-view").getByRole("alert");
+  await lose();
+  await expect.poll(() => alert.innerText()).toContain("The browser has stopped the 3-D view.");
+  // Nothing is found under the pointer, and no promise is left.
+  await page.mouse.move(x, y);
+  await page.mouse.click(x, y);
+  expect(await broken(page)).toEqual([]);
+  await page.evaluate("restore()");
+  await alert.waitFor({ state: "detached" });
+  await settled(page);
+  expect((await picture(page))(x, y)).toEqual(before(x, y));
+
+  await lose();
+  await alert.getByRole("button", { name: "Show again" }).click();
+  await alert.waitFor({ state: "detached" });
+  await settled(page);
   expect((await picture(page))(x, y)).toEqual(before(x, y));
 
   const alive = await page.evaluate(async () => {

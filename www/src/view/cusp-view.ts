@@ -79,6 +79,10 @@ export class CuspView extends elementWith(PROPERTIES) {
       step_mm: this.#scene?.plate.step_mm ?? 1,
       layerWords: this.#layerWords(),
       keyed: this.#key,
+      again: () => {
+        this.#stop();
+        this.#start();
+      },
     });
   }
 
@@ -124,12 +128,17 @@ export class CuspView extends elementWith(PROPERTIES) {
     const holder = this.renderRoot.querySelector<HTMLElement>(".scene");
     const context = contextOf(canvas);
     if (holder === null || context === null) {
+      // A browser that had one may have another later.
+      if (this.lost) return;
       this.broken = true;
       const { unavailable: message } = this.texts;
       this.#tell<ViewErrorDetail>("cusp-view-error", { code: "no-webgl", message });
       return;
     }
+    this.lost = false;
     holder.prepend(canvas);
+    canvas.addEventListener("webglcontextlost", () => (this.lost = true), { signal: life.signal });
+    canvas.addEventListener("webglcontextrestored", () => (this.lost = false), { signal: life.signal });
     const scene = new Scene(
       canvas,
       context,

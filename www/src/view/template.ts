@@ -6,7 +6,7 @@ import { wallLegend } from "./legend/wall-legend.js";
 
 type Properties = Pick<
   CuspView,
-  "texts" | "broken" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
+  "texts" | "broken" | "lost" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
 >;
 
 /** Facts about the scene; defaults until it exists. */
@@ -16,9 +16,11 @@ export interface Known {
   /** Describes the selected layer; empty if there is none. */
   readonly layerWords: string;
   keyed(event: KeyboardEvent): void;
+  /** Asks for another WebGL context. */
+  again(): void;
 }
 
-export function template(view: Properties, { size_mm, step_mm, layerWords, keyed }: Known): TemplateResult {
+export function template(view: Properties, { size_mm, step_mm, layerWords, keyed, again }: Known): TemplateResult {
   const { texts } = view;
   if (view.broken) return html`<p class="unavailable">${texts.unavailable}</p>`;
   const layers = view.thickness_mm.length;
@@ -44,6 +46,12 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
     ${scale(view)}
     ${view.positions === null || isAligned(view) ? nothing : html`<span class="grid">${texts.grid(step_mm)}</span>`}
     ${working(view)}
+    ${view.lost
+      ? html`<div class="lost" role="alert">
+          <p>${texts.lost}</p>
+          <button @click=${again}>${texts.again}</button>
+        </div>`
+      : nothing}
     <span class="probe ink"></span><span class="probe accent"></span><span class="probe bad"></span>
   `;
 }

@@ -41,6 +41,9 @@ export interface ViewTexts {
   readonly measuring: (progress: number) => string;
   /** Instead of the view where the browser has no WebGL. */
   readonly unavailable: string;
+  /** Over the view while the browser has taken its graphics away, with the name of the button that asks for others. */
+  readonly lost: string;
+  readonly again: string;
 }
 
 const MICROMETRES = 1000;
@@ -63,7 +66,7 @@ const micrometres = (mm: number): string => {
 const exact = new Intl.NumberFormat("en", { maximumSignificantDigits: 1 });
 
 /** The English sentences without numbers. */
-export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "distance" | "walls" | "unavailable"> = {
+export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "legend" | "heat" | "distance" | "walls" | "unavailable" | "lost" | "again"> = {
   kind: "3-D view",
   keys: {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
@@ -80,6 +83,8 @@ export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "leg
   distance: "Distance from the model (µm)",
   walls: "Wall thickness (mm)",
   unavailable: "This browser shows no 3-D view: WebGL 2 is switched off or missing.",
+  lost: "The browser has stopped the 3-D view. The model and its plan are still there.",
+  again: "Show again",
 };
 
 export const ENGLISH: ViewTexts = {

@@ -91,4 +91,6 @@ export const PROPERTIES = {
   isBeside: own<boolean | null>(null),
   /** Whether WebGL is missing. */
   broken: own(false),
+  /** Whether the browser has taken the WebGL context away. */
+  lost: own(false),
 };

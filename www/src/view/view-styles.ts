@@ -135,16 +135,39 @@ export const viewStyles = css`
   .building progress::-moz-progress-bar {
     background: var(--cusp-accent, Highlight);
   }
-  .unavailable {
+  .unavailable,
+  .lost {
     position: absolute;
     inset: 0;
     display: grid;
     place-content: center;
+    justify-items: center;
     margin: 0;
     padding: 2rem;
     color: var(--cusp-quiet, inherit);
     text-align: center;
     text-wrap: balance;
+  }
+  .lost {
+    background: var(--cusp-card, Canvas);
+  }
+  .lost p {
+    margin: 0 0 0.75rem;
+  }
+  .lost button {
+    min-height: 2.25rem;
+    padding: 0.25rem 0.75rem;
+    border: 1px solid var(--cusp-field, ButtonBorder);
+    border-radius: 8px;
+    background: transparent;
+    color: var(--cusp-text, CanvasText);
+    font: inherit;
+    font-weight: 550;
+    cursor: pointer;
+  }
+  .lost button:focus-visible {
+    outline: 3px solid var(--cusp-focus, Highlight);
+    outline-offset: 1px;
   }
   /* Probes of the page's colours. The start of a transition reveals a change of colour, whatever its cause. */
   .probe {

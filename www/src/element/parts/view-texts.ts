@@ -27,5 +27,7 @@ export function viewTexts({ texts: { view: words }, format }: Language): ViewTex
     building: (part) => words.building(format.percent(part)),
     measuring: (part) => words.measuring(format.percent(part)),
     unavailable: words.unavailable,
+    lost: words.lost,
+    again: words.again,
   };
 }

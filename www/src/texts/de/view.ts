@@ -29,6 +29,8 @@ export const view = ({ counted }: Format): ViewWords => ({
     thin: (least) => `Dünner als ${least}`,
     probing: (part) => `Wände werden gemessen: ${part}`,
     unavailable: "Dieser Browser zeigt keine 3-D-Ansicht: WebGL 2 ist abgeschaltet oder fehlt.",
+    lost: "Der Browser hat die 3-D-Ansicht angehalten. Das Modell und sein Plan sind noch da.",
+    again: "Wieder zeigen",
     tools: { turn: "Umsehen", move: "Auf der Platte verschieben", rotate: "Modell drehen", flat: "Fläche hinlegen", paint: "Was zählt", supports: "Stützpunkte", drains: "Ablauflöcher" },
     modes: "Modus",
     switches: "Anzeige",

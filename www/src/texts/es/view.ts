@@ -29,6 +29,8 @@ export const view = ({ counted }: Format): ViewWords => ({
     thin: (least) => `Más finas que ${least}`,
     probing: (part) => `Midiendo las paredes: ${part}`,
     unavailable: "Este navegador no muestra la vista 3D: WebGL 2 está desactivado o falta.",
+    lost: "El navegador ha detenido la vista 3D. El modelo y su plan siguen ahí.",
+    again: "Mostrar de nuevo",
     tools: { turn: "Mirar alrededor", move: "Mover en la placa", rotate: "Girar el modelo", flat: "Apoyar una cara", paint: "Qué importa", supports: "Puntos de soporte", drains: "Agujeros de drenaje" },
     modes: "Modo",
     switches: "Visualización",

@@ -29,6 +29,8 @@ export const view = ({ counted }: Format): ViewWords => ({
     thin: (least) => `Plus minces que ${least}`,
     probing: (part) => `Mesure des parois : ${part}`,
     unavailable: "Ce navigateur n’affiche pas la vue 3D : WebGL 2 est désactivé ou absent.",
+    lost: "Le navigateur a arrêté la vue 3D. Le modèle et son plan sont toujours là.",
+    again: "Afficher de nouveau",
     tools: { turn: "Regarder autour", move: "Déplacer sur le plateau", rotate: "Tourner le modèle", flat: "Poser une face", paint: "Ce qui compte", supports: "Points de support", drains: "Trous d’évacuation" },
     modes: "Mode",
     switches: "Affichage",

@@ -28,6 +28,8 @@ export const view = ({ count: number }: Format): ViewWords => ({
     thin: (least) => `薄于 ${least}`,
     probing: (part) => `正在测量壁厚：${part}`,
     unavailable: "此浏览器无法显示三维视图：WebGL 2 已关闭或缺失。",
+    lost: "浏览器已停止三维视图。模型及其方案仍在。",
+    again: "重新显示",
     tools: { turn: "查看", move: "在底板上移动", rotate: "转动模型", flat: "放平一个面", paint: "重要之处", supports: "支撑点", drains: "排液孔" },
     modes: "模式",
     switches: "显示",

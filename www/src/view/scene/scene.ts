@@ -347,7 +347,11 @@ export class Scene {
   async #picked(camera: PerspectiveCamera | OrthographicCamera, at: readonly [number, number]): Promise<Hit | null> {
     if (this.#isGone || this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return null;
     this.#scene.updateMatrixWorld();
-    const hit = await this.#picker.pick(this.#renderer, camera, this.model.facets, at, this.#size);
+    const hit = await this.#picker.pick(this.#renderer, camera, this.model.facets, at, this.#size).catch((error: unknown) => {
+      // A context that is lost meanwhile answers nothing.
+      if (this.#renderer.getContext().isContextLost()) return null;
+      throw error;
+    });
     return this.#isGone ? null : hit;
   }
 
