@@ -172,7 +172,7 @@ test("printers are listed by maker; one gives pixels and file, and what it canno
   expect((await download(page)).suggestedFilename()).toBe("ball-cusp.pm5s");
 });
 
-test("a printer of one's own is opened from a file, kept in the address, and stays in the list", async () => {
+test("a printer of one's own is opened from a file, kept in the address, and stays in the list; one that is refused changes nothing", async () => {
   const page = await opened("?backend=cpu");
   const list = page.getByLabel("Printer", { exact: true });
   const open = async (name: string, text: string): Promise<void> => {
@@ -193,6 +193,9 @@ test("a printer of one's own is opened from a file, kept in the address, and sta
   await expect.poll(() => problem.innerText()).toContain("missing field `volume_mm`");
   await open("big.json", JSON.stringify({ ...mine, step_mm: -1 }));
   await expect.poll(() => problem.innerText()).toContain("The printer big cannot have this step_mm; correct its description.");
+  await open("big.json", JSON.stringify({ ...mine, note: "x".repeat(64_000) }));
+  await expect.poll(() => problem.innerText()).toContain("A printer’s description has at most 64,000 bytes");
+  expect(await page.evaluate(() => [document.querySelector("cusp-workbench")?.printer, localStorage.getItem("cusp.printer")])).toEqual(["", null]);
   await open("big.json", JSON.stringify(mine));
   await settled(page);
   expect(await list.locator("option:checked").innerText()).toBe("Big One");

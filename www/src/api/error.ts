@@ -20,6 +20,8 @@ interface OwnDetails {
   "bad-number": { argument: string; value: unknown };
   /** The file that should describe a printer holds no JSON object. */
   "printer-not-json": SystemDetail;
+  /** That file is longer than any description of a printer. */
+  "printer-too-long": { bytes: number; most_bytes: number };
   /** The model's URL returned an HTTP error, or could not be reached. */
   "fetch-failed": { status: number } | SystemDetail;
   /** The worker could not be started: its script is missing or cannot be reached, or the page's policy or the browser refuses it. */

@@ -1,5 +1,6 @@
 import { afterEach, expect, test, vi } from "vitest";
 import type { KnownPrinter } from "../api/wire.js";
+import type { SlicerElement } from "../element/slicer-element.js";
 import { fromAddress, toAddress } from "../element/state/settings.js";
 import { recalled, remember, rememberedOf } from "./remembered.js";
 import { readKept } from "./storage.js";
@@ -27,6 +28,8 @@ function store(isBroken = false): Map<string, string> {
 /** An element that has settings and nothing else. */
 class Element extends EventTarget {
   printer = fromAddress("").printer;
+  model: SlicerElement["model"] = null;
+  result: SlicerElement["result"] = null;
   #query = "";
   readonly slicer: { printers(): Promise<KnownPrinter[]> };
 
@@ -42,6 +45,14 @@ class Element extends EventTarget {
     this.printer = settings.printer;
     this.#query = toAddress(settings);
     this.dispatchEvent(new Event("cusp-change"));
+  }
+  /** Plans with the printer as it is. */
+  plan(): void {
+    this.result = { options: { printer: this.printer } } as NonNullable<Element["result"]>;
+    this.dispatchEvent(new Event("cusp-plan"));
+  }
+  fail(code: string): void {
+    this.dispatchEvent(new CustomEvent("cusp-error", { detail: { code } }));
   }
 }
 
@@ -85,6 +96,37 @@ test("a printer that a person chooses is there at the next visit; one that a lin
   first.query = "printer=mars&exposure=3&height=60";
   expect(visit("metric=area", "saturn", "mars").query).toBe("metric=area&exposure=3&printer=mars");
   expect(visit("printer=saturn", "saturn", "mars").query).toBe("printer=saturn");
+});
+
+test("a printer of one's own is remembered once a plan was made with it, so never one that the core refuses", () => {
+  store();
+  const own = `printer=${JSON.stringify({ name: "own", pixels: [0, 0] })}`;
+  const first = visit("");
+  first.query = "printer=mars";
+  first.plan();
+  first.query = own;
+  first.fail("bad-printer");
+  // The plan of the settings before, which had been under way.
+  first.dispatchEvent(new Event("cusp-plan"));
+  expect(readKept("printer")).toBe("printer=mars");
+  first.plan();
+  expect(fromAddress(readKept("printer") ?? "").printer).toMatchObject({ name: "own" });
+});
+
+test("a kept printer that the core refuses is forgotten, with what belongs to it; one of a link is left to its reader", () => {
+  const texts = store();
+  const own = `printer=${encodeURIComponent(JSON.stringify({ name: "own" }))}`;
+  texts.set("cusp.printer", `${own}&exposure=3`);
+  const element = visit("height=60");
+  element.fail("bad-options");
+  expect(element.printer).toEqual({ name: "own" });
+  element.model = {} as Element["model"];
+  element.fail("bad-options");
+  expect([element.query, readKept("printer")]).toEqual(["height=60", ""]);
+  const linked = visit(`height=60&${own}`);
+  linked.model = element.model;
+  linked.fail("bad-printer");
+  expect(linked.printer).toEqual({ name: "own" });
 });
 
 test("a printer that no longer exists is dropped in silence, with what belongs to it", async () => {

@@ -3,6 +3,7 @@
  * next visit, unless the address asks for others.
  */
 import type { SlicerElement } from "../element/slicer-element.js";
+import { isEqual } from "../element/state/plain.js";
 import { check, DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
 import { readKept, writeKept } from "./storage.js";
 
@@ -43,27 +44,38 @@ function replaced(query: string, own: string): string {
 }
 
 /** What `remember` uses of the element. */
-type Chooser = Pick<SlicerElement, "query" | "printer" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
+type Chooser = Pick<SlicerElement, "query" | "printer" | "model" | "result" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
 
 /** Starts the element with the settings of an address and the remembered ones, and remembers those that a person chooses. */
 export function remember(element: Chooser, asked: string): void {
   const chosen = (): string => rememberedOf(element.query, element.printer);
   const start = recalled(asked, readKept("printer") ?? "");
   element.query = start;
-  if (start !== asked) void forgetUnknown(element);
   let last = chosen();
-  element.addEventListener("cusp-change", () => {
+  const forget = (): void => {
+    element.query = replaced(element.query, "");
+  };
+  // The core may refuse a description with which no plan was made yet.
+  const isGood = (): boolean => typeof element.printer === "string" || isEqual(element.printer, element.result?.options.printer);
+  const keep = (): void => {
     const now = chosen();
     // A printer that a link asks for is nobody's choice until it is changed.
-    if (now !== last) writeKept("printer", now);
+    if (now === last || !isGood()) return;
+    writeKept("printer", now);
     last = now;
+  };
+  element.addEventListener("cusp-change", keep);
+  element.addEventListener("cusp-plan", keep);
+  if (start === asked) return;
+  void isUnknown(element).then((is) => is && forget());
+  element.addEventListener("cusp-error", ({ detail: { code } }) => {
+    if ((code === "bad-printer" || code === "bad-options") && element.model !== null && !isGood()) forget();
   });
 }
 
-/** A printer that this version no longer knows would only be refused. */
-async function forgetUnknown(element: Chooser): Promise<void> {
+/** Whether this version no longer knows the printer, which would only be refused. */
+async function isUnknown(element: Chooser): Promise<boolean> {
   const known = await element.slicer.printers().catch(() => null);
   const { printer } = element;
-  if (known === null || typeof printer !== "string" || printer === "" || known.some(({ name }) => name === printer)) return;
-  element.query = replaced(element.query, "");
+  return known !== null && typeof printer === "string" && printer !== "" && !known.some(({ name }) => name === printer);
 }

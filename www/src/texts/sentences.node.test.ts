@@ -29,6 +29,7 @@ const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   "bad-facets": { list: "positions", numbers: 10, multiple_of: 9 },
   "bad-index": { place: 4, index: 8, vertices: 6 },
   "bad-number": { argument: "layer", value: "3" },
+  "printer-too-long": { bytes: 3_000_000, most_bytes: 64_000 },
   "fetch-failed": { status: 404 },
   "worker-failed": { system: "https://cdn.test/worker.js could not be loaded" },
   "start-failed": { system: "no WebAssembly" },

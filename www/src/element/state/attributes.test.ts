@@ -11,7 +11,6 @@ import { DEFAULT_SETTINGS, fromAddress, toAddress } from "./settings.js";
 
 class Wishes extends Preferences {
   protected override preferred(): void {}
-  protected override refused(): void {}
   protected override standing(): PlateState {
     return { job: 0, entries: [], selected: 0, arranging: DEFAULTS.arranging, placed: [] };
   }
@@ -232,11 +231,10 @@ test("only the page changes what is fixed: edits, queries and undo do not", () =
   expect(wishes.settings.printer).toBe("saturn");
 });
 
-test("nobody brings a printer of their own where the page has fixed one", async () => {
+test("nobody brings a printer of their own where the page has fixed one", () => {
   const own: Printer = { name: "mars", pixels: [1, 1], pitch_um: [50, 50], volume_mm: [1, 1, 1] };
   wishes.fixed = settingsOf(["printer"]);
   attributes.set("printer", "mars");
-  await wishes.openPrinter(new File([JSON.stringify(own)], "mine.json"));
   wishes.change({ printer: own });
   wishes.restore(fromAddress(toAddress({ ...DEFAULT_SETTINGS, printer: own })));
   expect(wishes.settings.printer).toBe("mars");

@@ -8,9 +8,13 @@ import { choose, weightsName } from "./choice.js";
 import type { Download, Host, SlicerCalls } from "./host.js";
 import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Posed } from "./plate.js";
 import { Preferences } from "./preferences.js";
+import { readPrinter } from "./printer.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
 import { withoutPlaced, type Settings } from "./settings.js";
+
+/** What the core finds wrong with a printer's description. */
+const OF_PRINTER: ReadonlySet<string> = new Set(["bad-options", "bad-printer"]);
 
 export abstract class Models extends Preferences {
   /** The open model: if there are several, the selected one. */
@@ -164,6 +168,23 @@ export abstract class Models extends Preferences {
     this.painted(isFinal);
   }
 
+  /** Chooses the printer that a file describes. One that the core refuses changes nothing, and the failure is shown. */
+  async openPrinter(file: File): Promise<void> {
+    if (this.fixed.has("printer")) return;
+    let { settings } = this;
+    try {
+      const printer = await readPrinter(file);
+      settings = { ...settings, printer };
+      // The core checks a printer with any options; of all calls, this one needs no model.
+      await this.slicer.calibrateLayers({ printer }).catch((error: unknown) => {
+        if (OF_PRINTER.has(asSlicerError(error).code)) throw error;
+      });
+      this.change({ printer });
+    } catch (error) {
+      this.#refused(error, file.name, settings);
+    }
+  }
+
   /** Reads the weights of a file and applies them; a failure is shown. */
   async openWeights(file: File): Promise<void> {
     const { model } = this;
@@ -171,7 +192,7 @@ export abstract class Models extends Preferences {
       const weights = await this.slicer.readWeights(file);
       if (this.model === model) this.setWeights(weights, true);
     } catch (error) {
-      if (this.model === model && !isAbort(error)) this.refused(error, file.name);
+      if (this.model === model && !isAbort(error)) this.#refused(error, file.name);
     }
   }
 
@@ -273,8 +294,9 @@ export abstract class Models extends Preferences {
     return { pose: { rotation, height }, ...(options !== null && { own: ownOf(options) }) };
   }
 
-  protected override refused(error: unknown, name: string): void {
-    this.fail(error, name, this.settings);
+  /** Shows why a file cannot be used. */
+  #refused(error: unknown, name: string, settings = this.settings): void {
+    this.fail(error, name, settings);
     this.changed();
   }
 

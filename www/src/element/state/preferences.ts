@@ -3,7 +3,6 @@ import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api
 import { History } from "./history.js";
 import { isEqual } from "./plain.js";
 import type { PlateState } from "./plate.js";
-import { readPrinter } from "./printer.js";
 import { changed, check, type Faults, type Offered, type Settings } from "./settings.js";
 
 /** Pause after the last keystroke before the settings are planned. */
@@ -40,9 +39,6 @@ export abstract class Preferences implements Offered {
 
   /** Brings the models back to a state, in the pose of the settings, and plans them. False if that is how they are. */
   protected abstract stand(state: PlateState): boolean;
-
-  /** Called when a file cannot be read, with its name: a failure to show. */
-  protected abstract refused(error: unknown, name: string): void;
 
   get faults(): Faults {
     const checked = check(this.settings, this);
@@ -90,15 +86,6 @@ export abstract class Preferences implements Offered {
   /** Makes an undo step of the change that follows. */
   protected note(kind: string): void {
     this.#history.note(this.#now(), kind, performance.now());
-  }
-
-  /** Chooses the printer that a file describes. */
-  async openPrinter(file: File): Promise<void> {
-    try {
-      this.change({ printer: await readPrinter(file) });
-    } catch (error) {
-      this.refused(error, file.name);
-    }
   }
 
   undo(): void {

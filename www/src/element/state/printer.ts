@@ -74,12 +74,17 @@ export function byMaker(printers: readonly KnownPrinter[]): [maker: string, mode
   return [...makers].sort(([a], [b]) => COLLATOR.compare(a, b));
 }
 
+/** The longest file that is read as a printer's description: a hundred times as long as a full one. */
+const MOST_BYTES = 64_000;
+
 /**
  * The printer that a file describes in JSON; it has the file's name unless it says its own. The core checks its values.
  *
  * @throws SlicerError
  */
 export async function readPrinter(file: File): Promise<Printer> {
+  const { size: bytes } = file;
+  if (bytes > MOST_BYTES) throw new SlicerError("printer-too-long", "the file is too long to describe a printer", { bytes, most_bytes: MOST_BYTES });
   const text = await file.text().catch((cause: unknown) => {
     throw new SlicerError("file-unreadable", said(cause));
   });

@@ -4,7 +4,7 @@ import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { fetchProblemTexts } from "../../texts/problems.js";
 import { advise } from "./advice.js";
-import { explain as explainIn } from "./problem.js";
+import { explain as explainIn, type Failure } from "./problem.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 const ENGLISH = languageOf("en");
@@ -15,8 +15,9 @@ function explain(
   name: string,
   settings: Settings,
   fixed: readonly (keyof Settings)[] = [],
+  task: Failure["task"] = "plan",
 ): ReturnType<typeof explainIn> {
-  return explainIn({ error, task: null, name, settings, height_mm: 60 }, ENGLISH, TEXTS, new Set(fixed));
+  return explainIn({ error, task, name, settings, height_mm: 60 }, ENGLISH, TEXTS, new Set(fixed));
 }
 
 const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]): SlicerError =>
@@ -159,7 +160,7 @@ test("an unknown printer offers the three most similar names, or none", () => {
   expect(offers.map(({ change }) => change.printer)).toEqual(["saturn", "saturn-4", "saturn-2", ""]);
 });
 
-test("a printer whose description is wrong is blamed, and may be left out; a file that describes none changed nothing", () => {
+test("a printer whose description is wrong is blamed, and may be left out; a file that is refused changed nothing", () => {
   const bad = explain(failed("bad-printer", { printer: "mine", field: "pitch_um" }), "a.stl", { ...DEFAULT_SETTINGS, printer: "mine" });
   expect(bad).toMatchObject({ field: "printer", offers: [{ change: { printer: "" } }] });
   expect(bad.text).toBe("The printer mine cannot have this pitch_um; correct its description.");
@@ -168,8 +169,13 @@ test("a printer whose description is wrong is blamed, and may be left out; a fil
   const system = "Failed to deserialize JsValue into type `cusp_slicer::job::options::Options`: Error: missing field `pitch_um`";
   const missing = explain(failed("bad-options", { system }), "a.stl", { ...DEFAULT_SETTINGS, printer: own });
   expect(missing).toMatchObject({ title: bad.title, field: "printer", text: "The options cannot be read: missing field `pitch_um`." });
-  const file = explain(failed("printer-not-json", { system: "Unexpected end of JSON input" }), "mine.json", DEFAULT_SETTINGS);
-  expect(file).toMatchObject({ title: bad.title, field: "printer", offers: [] });
+  for (const error of [
+    failed("printer-not-json", { system: "Unexpected end of JSON input" }),
+    failed("printer-too-long", { bytes: 3_000_000, most_bytes: 64_000 }),
+    failed("bad-printer", { printer: "mine", field: "pitch_um" }),
+  ]) {
+    expect(explain(error, "mine.json", DEFAULT_SETTINGS, [], null)).toMatchObject({ title: bad.title, field: "printer", offers: [] });
+  }
 });
 
 test.each([

@@ -86,6 +86,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "unknown-printer": "noSuchPrinter",
   "bad-printer": "badPrinter",
   "printer-not-json": "badPrinter",
+  "printer-too-long": "badPrinter",
   "pixels-without-pitch": "badOptions",
   "bad-antialias": "badValue",
   "bad-weight-min": "badValue",
@@ -232,7 +233,8 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
     case "noSuchPrinter":
       return [...similarPrinters(error), withoutPrinter(language)];
     case "badPrinter":
-      return error.code === "printer-not-json" ? [] : [withoutPrinter(language)];
+      // A file that was refused has not replaced the printer before.
+      return failure.task === null ? [] : [withoutPrinter(language)];
     case "uniformOnly":
       // Test towers in uniform layers, or as images, tell nothing about a printer.
       if (failure.task === "towers") return [];

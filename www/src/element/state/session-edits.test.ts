@@ -1,5 +1,6 @@
 /** Edits of the model itself: turning it, painting weights, and applying an orientation. */
 import { expect, test } from "vitest";
+import { SlicerError } from "../../api/error.js";
 import { SCHEMA } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
 import { model, planOf } from "./fake-slicer.js";
@@ -109,13 +110,46 @@ test("weights are saved to a file and read back; a file without weights is a fai
 test("the description of a printer is opened as an undo step; a file that is none changes nothing", async () => {
   await planned();
   const own = { model: "Mine", pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] };
-  await session.openPrinter(new File([JSON.stringify(own)], "mine.json"));
+  const open = (content: BlobPart, name = "mine.json"): Promise<void> => session.openPrinter(new File([content], name));
+  const opening = open(JSON.stringify(own));
+  await settle();
+  expect(slicer.last).toMatchObject({ what: "calibrateLayers", options: { printer: own } });
+  slicer.last.resolve({});
+  await opening;
   expect(session.options?.printer).toEqual({ ...own, name: "mine" });
-  await session.openPrinter(new File(["solid"], "b.json"));
+  await open("solid", "b.json");
   expect(session.failure).toMatchObject({ error: { code: "printer-not-json" }, name: "b.json" });
+  await open(" ".repeat(64_001));
+  expect(session.failure).toMatchObject({ error: { code: "printer-too-long", detail: { bytes: 64_001, most_bytes: 64_000 } } });
   expect(session.settings.printer).toMatchObject(own);
   session.undo();
   expect(session.settings.printer).toBe("");
+});
+
+test("a printer that the core refuses does not replace the last one, and is not planned; one too small for the towers is not refused", async () => {
+  await planned();
+  const open = async (error: SlicerError): Promise<void> => {
+    const opening = session.openPrinter(new File([`{ "pixels": [0, 1] }`], "bad.json"));
+    await settle();
+    slicer.last.reject(error);
+    await opening;
+  };
+  session.change({ printer: "mars" });
+  await settle();
+  slicer.last.resolve(planOf(10));
+  await settle();
+  await open(new SlicerError("bad-printer", "", { printer: "bad", field: "pixels" }));
+  expect(session.failure).toMatchObject({ error: { code: "bad-printer" }, name: "bad.json", task: null, settings: { printer: { pixels: [0, 1] } } });
+  await settle();
+  expect([session.settings.printer, session.canUndo, slicer.last.what]).toEqual(["mars", true, "calibrateLayers"]);
+  await open(new SlicerError("crash", "", { system: "" }));
+  expect(session.settings.printer).toMatchObject({ pixels: [0, 1] });
+});
+
+test("nobody brings a printer of their own where the page has fixed one", async () => {
+  session.fixed = new Set(["printer"]);
+  await session.openPrinter(new File(["{}"], "mine.json"));
+  expect([session.settings.printer, session.failure, slicer.calls]).toEqual(["", null, []]);
 });
 
 test("opening another model clears the weights", async () => {

@@ -84,6 +84,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `Unter den ${count(known)} bekannten Druckern ist kein ${printer}${similar.length === 0 ? "" : `; ähnlich sind ${similar.join(", ")}`}.`,
   "bad-printer": ({ printer, field }) => `Der Drucker ${printer} kann diesen Wert von ${field} nicht haben; berichtigen Sie seine Beschreibung.`,
   "printer-not-json": ({ system }) => `Diese Datei beschreibt keinen Drucker in JSON: ${ended(system)}`,
+  "printer-too-long": ({ bytes, most_bytes }) => `Die Beschreibung eines Druckers hat höchstens ${count(most_bytes)} Byte, und diese Datei hat ${count(bytes)}; wählen Sie eine andere Datei.`,
   "pixels-without-pitch": () =>
     "Pixel und ihr Abstand in x und y gehören zusammen; geben Sie beides an, oder einen Abstand für x und y.",
   "bad-antialias": ({ antialias, known }) => `Die Kantenglättung hat die Stufen ${known.join(", ")}, nicht ${exact(antialias)}.`,

@@ -86,6 +86,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `There is no printer ${printer} among the ${count(known)} known ones${similar.length === 0 ? "" : `; similar are ${similar.join(", ")}`}.`,
   "bad-printer": ({ printer, field }) => `The printer ${printer} cannot have this ${field}; correct its description.`,
   "printer-not-json": ({ system }) => `This file does not describe a printer in JSON: ${ended(system)}`,
+  "printer-too-long": ({ bytes, most_bytes }) => `A printer’s description has at most ${count(most_bytes)} bytes, and this file has ${count(bytes)}; choose another file.`,
   "pixels-without-pitch": () => "Pixels and their pitch in x and y belong together; give both, or one pitch for x and y.",
   "bad-antialias": ({ antialias, known }) => `Anti-aliasing has the levels ${known.join(", ")}, not ${exact(antialias)}.`,
   "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} must be from ${mm(least_mm)} to ${mm(most_mm)}, not ${mm(value_mm)}.`,

@@ -84,6 +84,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `Entre las ${count(known)} impresoras conocidas no hay ninguna ${printer}${similar.length === 0 ? "" : `; se parecen ${similar.join(", ")}`}.`,
   "bad-printer": ({ printer, field }) => `La impresora ${printer} no puede tener ese valor de ${field}; corrija su descripción.`,
   "printer-not-json": ({ system }) => `Este archivo no describe una impresora en JSON: ${ended(system)}`,
+  "printer-too-long": ({ bytes, most_bytes }) => `La descripción de una impresora tiene como máximo ${count(most_bytes)} bytes y este archivo tiene ${count(bytes)}; elija otro archivo.`,
   "pixels-without-pitch": () => "Los píxeles y su paso en x e y van juntos; indique ambos, o un solo paso para x e y.",
   "bad-antialias": ({ antialias, known }) => `El suavizado tiene los niveles ${known.join(", ")}, no ${exact(antialias)}.`,
   "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} debe estar entre ${mm(least_mm)} y ${mm(most_mm)}, no ser ${mm(value_mm)}.`,

@@ -84,6 +84,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
     `Aucune imprimante ${printer} parmi les ${count(known)} connues${similar.length === 0 ? "" : ` ; s’en approchent ${similar.join(", ")}`}.`,
   "bad-printer": ({ printer, field }) => `L’imprimante ${printer} ne peut pas avoir cette valeur de ${field} ; corrigez sa description.`,
   "printer-not-json": ({ system }) => `Ce fichier ne décrit pas une imprimante en JSON : ${ended(system)}`,
+  "printer-too-long": ({ bytes, most_bytes }) => `La description d’une imprimante compte au plus ${count(most_bytes)} octets et ce fichier en compte ${count(bytes)} ; choisissez un autre fichier.`,
   "pixels-without-pitch": () => "Les pixels et leur pas en x et y vont ensemble ; donnez les deux, ou un seul pas pour x et y.",
   "bad-antialias": ({ antialias, known }) => `L’anticrénelage a les niveaux ${known.join(", ")}, pas ${exact(antialias)}.`,
   "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} doit être compris entre ${mm(least_mm)} et ${mm(most_mm)}, et non ${mm(value_mm)}.`,

@@ -84,6 +84,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
     `已知的 ${count(known)} 种打印机中没有 ${printer}${similar.length === 0 ? "" : `；相近的有 ${similar.join(", ")}`}。`,
   "bad-printer": ({ printer, field }) => `打印机 ${printer} 的 ${field} 不能取此值；请更正其描述。`,
   "printer-not-json": ({ system }) => `此文件没有以 JSON 描述打印机：${ended(system)}`,
+  "printer-too-long": ({ bytes, most_bytes }) => `打印机描述最多 ${count(most_bytes)} 字节，而此文件有 ${count(bytes)} 字节；请选择其他文件。`,
   "pixels-without-pitch": () => "像素与其 x、y 间距须一并给出；请两者都给，或给出 x、y 共用的一个间距。",
   "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
   "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} 必须在 ${mm(least_mm)} 到 ${mm(most_mm)} 之间，而不是 ${mm(value_mm)}。`,
