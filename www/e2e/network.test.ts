@@ -1,6 +1,7 @@
 /** What the page fetches, when, and what happens where it cannot. */
 import type { Browser, Page } from "playwright-core";
 import { afterAll, beforeAll, expect, inject, test } from "vitest";
+import { broken } from "./axe.js";
 import { drop, launch, layers, open, openPanel, state, USUAL, visit } from "./browser.js";
 import { beforeView, whole } from "./loaded.js";
 import { sphere } from "./solids.js";
@@ -59,6 +60,52 @@ test("a slicer that cannot be fetched says what to do, and is fetched again with
   isThere = true;
   await drop(page, ball);
   await state(page, "done");
+  await page.context().close();
+});
+
+test("each part that a newer version has replaced says so in one sentence and leads on; nothing is left uncaught, and slicing goes on", async () => {
+  const page = await (await browser.newContext(USUAL)).newPage();
+  let gone = /^never$/;
+  await page.route(/\/assets\//, (route) => (gone.test(route.request().url()) ? route.fulfill({ status: 404 }) : route.continue()));
+  const { complaints } = await visit(page, inject("address"));
+  // The slicer is there, and the view is fetched ahead.
+  await page.waitForLoadState("networkidle");
+  const notice = page.locator("#notice");
+  const says = async (words: string): Promise<void> => {
+    await expect.poll(() => notice.innerText()).toContain(words);
+    expect(await broken(page)).toEqual([]);
+    await notice.getByRole("button", { name: "Close" }).click();
+    await notice.waitFor({ state: "detached" });
+  };
+  const press = (name: string): Promise<void> => page.getByRole("button", { name, exact: true }).click();
+  const goo = { name: "ball.goo", bytes: new Uint8Array(4096) };
+
+  // The reader's code is there, but not its module; then neither.
+  for (gone of [/cusp_reader|\/worker-/, /\.(js|wasm)/]) {
+    await drop(page, goo);
+    await says("The reader of print files could not be loaded, so ball.goo is not open. Reload the page");
+  }
+  for (const name of ["Presets", "Recent models", "Keys", "Try the example"]) {
+    await press(name);
+    await says("This part of the page could not be loaded");
+  }
+  await page.getByLabel("Language").selectOption("de");
+  await says("This part of the page could not be loaded");
+
+  await drop(page, ball);
+  await state(page, "done");
+  await openPanel(page, "Check");
+  // The chart and the findings.
+  await expect.poll(() => page.getByRole("alert").count()).toBe(2);
+  for (const text of await page.getByRole("alert").allInnerTexts()) expect(text).toMatch(/^This part of the page could not be loaded\..* reload the page\.\s+Try again$/);
+  expect(complaints.filter((it) => !it.startsWith("Failed to load resource"))).toEqual([]);
+
+  await press("Presets");
+  gone = /^never$/;
+  await notice.getByRole("button", { name: "Reload" }).click();
+  await state(page, "empty");
+  await page.locator("[popovertarget=saved]").click();
+  await page.locator("cusp-saved .panel").first().waitFor();
   await page.context().close();
 });
 

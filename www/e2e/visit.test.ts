@@ -202,6 +202,32 @@ test("models are kept if the person allows it, opened again by keyboard, and del
   expect(await panel.getByRole("status").innerText()).toBe("All models deleted from this browser.");
 });
 
+test("a store of models that is full or fails keeps none, says so, and slicing goes on", async () => {
+  const page = await start("", {}, true);
+  const panel = page.locator("#recent cusp-recent");
+  const notice = page.locator("#notice");
+  await page.getByRole("button", { name: "Recent models" }).click();
+  await panel.getByRole("checkbox").check();
+  await page.evaluate(() => {
+    FileSystemFileHandle.prototype.createWritable = () => Promise.reject(new DOMException("full", "QuotaExceededError"));
+  });
+  await drop(page, ball);
+  await state(page, "done");
+  await expect.poll(() => notice.innerText()).toContain("ball.stl was not kept for the next visit");
+  expect(await broken(page)).toEqual([]);
+  await notice.getByRole("button", { name: "Close" }).click();
+
+  await page.evaluate(() => {
+    navigator.storage.getDirectory = () => Promise.reject(new DOMException("no", "UnknownError"));
+  });
+  await drop(page, cube);
+  await state(page, "done");
+  await expect.poll(() => notice.innerText()).toContain("small ball.stl was not kept");
+  await page.getByRole("button", { name: "Recent models" }).click();
+  await panel.getByRole("checkbox").uncheck();
+  await expect.poll(() => panel.getByRole("status").innerText()).toContain("storage is full or switched off");
+});
+
 test("two tabs share the list of recent models", async () => {
   const page = await start("", {}, true);
   await page.getByRole("button", { name: "Recent models" }).click();

@@ -4,6 +4,7 @@ import { live } from "lit/directives/live.js";
 import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGE_NAMES, LANGUAGES, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
+import { noticeBar, type Notice } from "./notice.js";
 import { pageWords } from "./texts/index.js";
 import type { Visit } from "./visit.js";
 
@@ -12,6 +13,8 @@ export interface PageActions {
   speak(locale: string): void;
   /** Opens files that a person chose. */
   open(files: readonly File[]): void;
+  /** Closes the notice. */
+  dismiss(): void;
 }
 
 /** A print file in place of the slicer. */
@@ -20,12 +23,14 @@ export interface PrintOnShow {
   close(): void;
   /** The file turned out to be something else. */
   unknown(): void;
+  /** The reader could not be loaded. */
+  missing(): void;
 }
 
 export function frame(
   language: Language,
-  { example, speak, open }: PageActions,
-  print: PrintOnShow | null,
+  { example, speak, open, dismiss }: PageActions,
+  { print, notice }: { print: PrintOnShow | null; notice: Notice | null },
   visit: Visit,
 ): TemplateResult {
   const { code, locale } = language;
@@ -56,6 +61,7 @@ export function frame(
             .language=${language}
             @cusp-close=${print.close}
             @cusp-unknown=${print.unknown}
+            @cusp-missing=${print.missing}
             @cusp-files=${(event: CustomEvent<File[]>) => open(event.detail)}
           ></cusp-print>`}
       <cusp-workbench .locale=${locale} ?hidden=${print !== null}>
@@ -77,6 +83,7 @@ export function frame(
         <button slot="actions" class="link" @click=${example}>${words.example}</button>
       </cusp-workbench>
     </main>
+    ${notice === null ? nothing : noticeBar(notice, words, dismiss)}
     <div class="drop-veil"><p>${words.drop}</p></div>
   `;
 }

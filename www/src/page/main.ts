@@ -6,7 +6,9 @@ import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { frame } from "./frame.js";
 import { idle } from "../api/calls.js";
 import { fetchView } from "../element/panels/model-view.js";
+import { isNamedAsModel } from "../element/state/choice.js";
 import { isModel } from "./is-model.js";
+import type { Notice } from "./notice.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
@@ -26,6 +28,7 @@ const own = new URLSearchParams([...asked].filter(([key]) => ADDRESS_KEYS.includ
 
 /** The print file on show, and the files that it was opened with. */
 let shown: readonly File[] | null = null;
+let notice: Notice | null = null;
 
 const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
 
@@ -40,27 +43,40 @@ function draw(): void {
   document.title = pageWords(language).title;
   const files = shown;
   const [file] = files ?? [];
-  const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files) };
+  const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files), missing: () => unread(files) };
   document.body.classList.toggle("reading", print !== null);
-  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files) };
-  render(frame(language, actions, print, visit), place);
+  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files), dismiss: () => say(null) };
+  render(frame(language, actions, { print, notice }, visit), place);
+}
+
+function say(said: Notice | null): void {
+  notice = said;
+  draw();
 }
 
 /** Shows a print file, or opens models. Only the reader knows print files, so whatever is no model by its content goes there first. */
 async function open(files: readonly File[]): Promise<void> {
   const [first] = files;
   if (first === undefined) return;
+  notice = null;
   // A file that cannot be read is the slicer's to report.
   if (await isModel(first).catch(() => true)) return load(files);
   try {
     const { definePrint } = await import("../print/cusp-print.js");
     definePrint();
   } catch {
-    // Offline, say: the slicer tells what it can.
-    return load(files);
+    return unread(files);
   }
   shown = files;
   draw();
+}
+
+/** Without the reader, what is named as a model may be a damaged one; the slicer would take a print file for such. */
+function unread(files: readonly File[]): void {
+  const [{ name } = { name: "" }] = files;
+  if (isNamedAsModel(name)) return load(files);
+  close();
+  say({ says: "reader", name });
 }
 
 function load(files: readonly File[]): void {
@@ -84,7 +100,9 @@ async function speak(locale: string): Promise<void> {
 }
 
 async function example(): Promise<void> {
-  const { binaryStl, exampleTriangles, EXAMPLE_NAME } = await import("./example.js");
+  const code = await import("./example.js").catch(() => null);
+  if (code === null) return say({ says: "part" });
+  const { binaryStl, exampleTriangles, EXAMPLE_NAME } = code;
   close();
   slicer.willOrphan();
   slicer.load(new Blob([binaryStl(exampleTriangles())]), EXAMPLE_NAME).catch(() => undefined);
@@ -103,6 +121,7 @@ const visit = new Visit({
   link: () => new URL(addressOf(slicer.query, own) || location.pathname, location.href).href,
   open: (files) => void open(files),
   draw,
+  say,
   targets: [within(".view"), within(".path"), within(".plan .download, .bar-result")],
   clearance: () => within(".bar")()?.offsetHeight ?? 0,
 });

@@ -66,8 +66,8 @@ export class CuspRecent extends elementWith(PROPERTIES) {
 
   override connectedCallback(): void {
     super.connectedCallback();
-    this.#unwatch = watchRecent(() => void this.#read());
-    void this.#read();
+    this.#unwatch = watchRecent(() => void this.#try(() => this.#read()));
+    void this.#try(() => this.#read());
   }
 
   override disconnectedCallback(): void {
@@ -98,7 +98,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
   #offer(models: RecentModels, isOn: boolean): TemplateResult {
     const { language } = this;
     const { recent: words } = visitWords(language);
-    const change = (): void => void this.#switch(models, !isOn);
+    const change = (): void => void this.#try(() => this.#switch(models, !isOn));
     return html`<div>
       <label><input type="checkbox" aria-describedby="about" .checked=${live(isOn)} @change=${change} />${words.keep}</label>
       <p class="about" id="about">${words.about(language.format.count(MOST_MODELS), size(MOST_BYTES, language))}</p>
@@ -111,14 +111,19 @@ export class CuspRecent extends elementWith(PROPERTIES) {
     const { recent: words } = visitWords(this.language);
     const date = new Intl.DateTimeFormat(this.language.locale, { dateStyle: "medium" }).format(opened_ms);
     return html`<li>
-      <button class="row" @click=${() => void this.#open(model, models)}>
+      <button class="row" @click=${() => void this.#try(() => this.#open(model, models))}>
         <canvas width=${PICTURE_PX} height=${PICTURE_PX} data-id=${id}></canvas>
         <span>${name}<small class="figures">${size(bytes, this.language)} · ${date}</small></span>
       </button>
-      <button class="icon" aria-label=${words.delete(name)} title=${words.delete(name)} @click=${() => void this.#delete(model, models)}>
+      <button class="icon" aria-label=${words.delete(name)} title=${words.delete(name)} @click=${() => void this.#try(() => this.#delete(model, models))}>
         ${icon("delete")}
       </button>
     </li>`;
+  }
+
+  /** What the browser's storage refuses is said. */
+  async #try(work: () => Promise<void>): Promise<void> {
+    await work().catch(() => (this.said = visitWords(this.language).saved.failed));
   }
 
   async #open(model: RecentModel, models: RecentModels): Promise<void> {

@@ -2,7 +2,7 @@
  * Caches the page's own files, so that it opens without a network. All other requests are left alone.
  *
  * The build inserts the list of files. Their names contain their hashes, so a new build has a new list, and the browser
- * sees that this script has changed.
+ * sees that this script has changed. The new one waits until no page of the version before is open: those fetch parts of it yet.
  */
 declare const self: ServiceWorkerGlobalScope;
 declare const __FILES__: readonly string[];
@@ -14,7 +14,6 @@ self.addEventListener("install", (event) => {
   const keep = async (): Promise<void> => {
     const cache = await caches.open(CACHE);
     await cache.addAll([...addresses]);
-    await self.skipWaiting();
   };
   event.waitUntil(keep());
 });

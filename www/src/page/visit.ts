@@ -9,6 +9,7 @@ import type { SlicerElement } from "../element/slicer-element.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { closeFlyout, flyout } from "./flyout.js";
 import { canKeep, isKeeping } from "./keeping.js";
+import type { Notice } from "./notice.js";
 import { asksForKeys } from "./question-mark.js";
 import { remember } from "./remembered.js";
 import { readKept, writeKept } from "./storage.js";
@@ -24,6 +25,7 @@ export interface VisitHost {
   open(files: readonly File[]): void;
   /** Draws the page again. */
   draw(): void;
+  say(notice: Notice): void;
   /** What the tour shows, a step each. */
   targets: readonly Target[];
   /** The height of what stays at the bottom of the window, in CSS pixels. */
@@ -47,13 +49,13 @@ export class Visit {
     if (tour !== null) tour.language = language;
     this.#language = language;
     const saved = html`<cusp-saved .language=${language} .link=${link} @cusp-apply=${this.#apply}></cusp-saved>`;
-    const keys = html`<cusp-keys .language=${language} @cusp-tour=${() => void this.#tour()}></cusp-keys>`;
+    const keys = html`<cusp-keys .language=${language} @cusp-tour=${() => void this.#asked(() => this.#tour())}></cusp-keys>`;
     return html`<div class="tools">
       ${this.#canKeep
-        ? flyout({ id: "recent", label: words.recent, icon: "recent", content: this.#list(language, false), opening: () => void this.#fetchRecent() })
+        ? flyout({ id: "recent", label: words.recent, icon: "recent", content: this.#list(language, false), opening: () => void this.#asked(() => this.#fetchRecent(), "recent") })
         : nothing}
-      ${flyout({ id: "saved", label: words.saved, icon: "saved", content: saved, opening: () => void this.#fetchSaved() })}
-      <button class="keys" aria-label=${words.keys} title=${words.keys} @click=${() => void this.#keys()}>?</button>
+      ${flyout({ id: "saved", label: words.saved, icon: "saved", content: saved, opening: () => void this.#asked(() => this.#fetchSaved(), "saved") })}
+      <button class="keys" aria-label=${words.keys} title=${words.keys} @click=${() => void this.#asked(() => this.#keys())}>?</button>
       ${keys}
     </div>`;
   }
@@ -82,20 +84,34 @@ export class Visit {
     element.addEventListener("cusp-load", () => void this.#keep());
     element.addEventListener("cusp-plan", () => {
       // Where nothing is kept, every visit would be the first.
-      if (readKept("tour") === null && writeKept("tour", "shown")) void this.#tour();
+      if (readKept("tour") === null && writeKept("tour", "shown")) this.#tour().catch(() => undefined);
     });
     addEventListener("keydown", this.#key);
-    if (this.#canKeep && isKeeping()) void this.#fetchRecent();
+    if (this.#canKeep && isKeeping()) void this.#asked(() => this.#fetchRecent());
   }
 
   /** Fetches the texts of a language that is to be shown next. */
-  async speak(language: Language): Promise<void> {
+  speak(language: Language): Promise<void> {
+    return this.#asked(() => this.#fetchWords(language));
+  }
+
+  async #fetchWords(language: Language): Promise<void> {
     const { fetchVisitWords } = await import("./texts/visit/index.js");
     await fetchVisitWords(language);
   }
 
+  /** Does what somebody asked for, whose code is fetched; says so where it cannot be, in place of an empty flyout. */
+  async #asked(work: () => Promise<void>, flyout?: string): Promise<void> {
+    try {
+      await work();
+    } catch {
+      if (flyout !== undefined) closeFlyout(flyout);
+      this.#host.say({ says: "part" });
+    }
+  }
+
   readonly #key = (event: KeyboardEvent): void => {
-    if (asksForKeys(event)) void this.#keys();
+    if (asksForKeys(event)) void this.#asked(() => this.#keys());
     else if ((event.ctrlKey || event.metaKey) && !event.shiftKey && !event.altKey && event.key.toLowerCase() === "o") this.#choose();
     else return;
     event.preventDefault();
@@ -119,7 +135,7 @@ export class Visit {
   };
 
   async #fetchRecent(): Promise<void> {
-    await this.speak(this.#language);
+    await this.#fetchWords(this.#language);
     const [{ recentModels }] = await Promise.all([import("./recent-models.js"), import("./recent-list.js")]);
     if ((await recentModels()) !== null) return;
     this.#canKeep = false;
@@ -127,14 +143,14 @@ export class Visit {
   }
 
   async #fetchSaved(): Promise<void> {
-    await this.speak(this.#language);
+    await this.#fetchWords(this.#language);
     await import("./saved-list.js");
     const list = document.querySelector("cusp-saved");
     if (list !== null) list.query = this.#host.element().query;
   }
 
   async #keys(): Promise<void> {
-    await this.speak(this.#language);
+    await this.#fetchWords(this.#language);
     await import("./keys.js");
     const list = document.querySelector("cusp-keys");
     if (list === null) return;
@@ -144,7 +160,7 @@ export class Visit {
 
   /** Shows the tour, unless it is on show. */
   async #tour(): Promise<void> {
-    await this.speak(this.#language);
+    await this.#fetchWords(this.#language);
     const { CuspTour } = await import("./tour.js");
     if (document.querySelector("cusp-tour") !== null) return;
     const { targets, clearance, element } = this.#host;
@@ -158,16 +174,22 @@ export class Visit {
     const { model } = element;
     // The example is no file.
     if (model === null || !(model.file instanceof File) || !isKeeping()) return;
-    const { recentModels, PICTURE_PX } = await import("./recent-models.js");
-    const models = await recentModels();
-    const kept = await models?.keep(model.name, model.file).catch(() => null);
-    // Switched off meanwhile, perhaps in another tab.
-    if (!isKeeping()) return models?.deleteAll();
-    if (models === null || kept == null || (await models.picture(kept)) !== null) return;
-    await planned(element, model);
-    if (element.model !== model) return;
-    // Without WebGL there is no picture.
-    await element.thumbnail(PICTURE_PX).then((png) => models.setPicture(kept, png)).catch(() => undefined);
+    const { file, name } = model;
+    try {
+      const { recentModels, PICTURE_PX } = await import("./recent-models.js");
+      const models = await recentModels();
+      const kept = await models?.keep(name, file);
+      // Switched off meanwhile, perhaps in another tab.
+      if (!isKeeping()) return await models?.deleteAll();
+      if (models === null || kept == null) return this.#host.say({ says: "notKept", name });
+      if ((await models.picture(kept)) !== null) return;
+      await planned(element, model);
+      if (element.model !== model) return;
+      // Without WebGL there is no picture.
+      await element.thumbnail(PICTURE_PX).then((png) => models.setPicture(kept, png)).catch(() => undefined);
+    } catch {
+      this.#host.say({ says: "notKept", name });
+    }
   }
 }
 

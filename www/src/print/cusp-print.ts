@@ -3,7 +3,7 @@
  * three dimensions. Import this module lazily: it loads the reader, and the 3-D view with three.js.
  */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
-import { isAbort, said } from "../api/error.js";
+import { isAbort, said, SlicerError } from "../api/error.js";
 import type { Mask } from "../api/index.js";
 import { define } from "../element/define.js";
 import { CuspMask, type Layered } from "../element/panels/mask-view.js";
@@ -284,6 +284,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       void this.#fetch();
     } catch (error) {
       if (isAbort(error, life.signal)) return;
+      if (error instanceof SlicerError) return void this.dispatchEvent(new CustomEvent("cusp-missing"));
       const described: PrintFileError | ReadError = isCoded(error) ? error : { code: "crash", detail: { system: said(error) } };
       this.state = { is: "failed", error: described };
       // No print file at all: whoever opened it may know better.

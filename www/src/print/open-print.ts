@@ -1,6 +1,8 @@
 /** Opens a print file in a worker of its own, and decodes it. */
 import * as Comlink from "comlink";
+import { SlicerError } from "../api/error.js";
 import type { Mask } from "../api/index.js";
+import { partError } from "../element/parts/part.js";
 import { listenTo, told, untold } from "../api/told.js";
 import type { PrintFileError, Read, ReaderWorker } from "./wire.js";
 
@@ -19,7 +21,7 @@ export interface Print extends Read {
 /**
  * Reads a print file of any known format.
  *
- * @throws PrintFileError | ReadError; the signal's reason if it aborts
+ * @throws PrintFileError | ReadError; a SlicerError if the reader cannot be loaded; the signal's reason if it aborts
  */
 export async function openPrint(file: File, signal: AbortSignal, progress: (fraction: number) => void): Promise<Print> {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-reader" });
@@ -32,6 +34,9 @@ export async function openPrint(file: File, signal: AbortSignal, progress: (frac
   });
   try {
     signal.throwIfAborted();
+    await Promise.race([remote.start(), broken]).catch((cause: unknown) => {
+      throw signal.aborted ? cause : partError("reader", cause);
+    });
     const read = await Promise.race([remote.read(file, heard), broken]);
     const [width, height] = read.pixels;
     const mask = async (layer: number): Promise<Mask | null> => {
@@ -41,7 +46,7 @@ export async function openPrint(file: File, signal: AbortSignal, progress: (frac
     return { ...read, name: file.name, mask, close: () => worker.terminate() };
   } catch (error) {
     worker.terminate();
-    throw isCoded(error) || signal.aborted ? error : crash(error instanceof Error ? error.message : String(error));
+    throw isCoded(error) || error instanceof SlicerError || signal.aborted ? error : crash(error instanceof Error ? error.message : String(error));
   } finally {
     untold(heard);
   }

@@ -25,6 +25,8 @@ export interface Read {
 
 /** The worker's interface through comlink. It throws plain objects with a code. */
 export interface ReaderWorker {
+  /** Loads the reader. To be called once, before anything else. */
+  start(): Promise<void>;
   /** Opens a print file and decodes all of it. `progress` goes from 0 to 1. */
   read(file: Blob, progress: (fraction: number) => void): Promise<Read>;
   /** One bit per pixel, seen from above, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */

@@ -21,8 +21,8 @@ function largest(reader: PrintReader, previews: number): Picture | null {
 }
 
 const api: ReaderWorker = {
+  start,
   async read(file, progress) {
-    await start();
     reader?.free();
     reader = null;
     const opened = new PrintReader(await bytesOf(file));

@@ -6,9 +6,9 @@ import { fetched } from "./fetched.js";
 
 /**
  * The 3-D view, what paints weights in it, and what places points; the chart of the profile; the panel of orientation, and the
- * pictures of the best ones; the list of models; what will fail; the masks.
+ * pictures of the best ones; the list of models; what will fail; the masks; on our page, the reader of print files.
  */
-export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask";
+export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask" | "reader";
 
 export function partError(part: Part, cause: unknown): SlicerError {
   const system = said(cause);

@@ -9,11 +9,11 @@ export interface Named {
 export const MODEL_FILES = ".stl,.3mf,.obj,model/stl,model/3mf,model/obj";
 
 /** By its name alone; a name without any extension is given the benefit of the doubt. */
-const isModel = (name: string): boolean => /\.(stl|3mf|obj)$/i.test(name) || !/\.[a-z0-9]+$/i.test(name);
+export const isNamedAsModel = (name: string): boolean => /\.(stl|3mf|obj)$/i.test(name) || !/\.[a-z0-9]+$/i.test(name);
 
 /** The models of several files. If no name looks like one, the first file: the core inspects it and reports what it is. */
 export function choose<T extends Named>(files: readonly T[]): readonly T[] {
-  const models = files.filter(({ name }) => isModel(name));
+  const models = files.filter(({ name }) => isNamedAsModel(name));
   return models.length > 0 ? models : files.slice(0, 1);
 }
 

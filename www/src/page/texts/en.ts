@@ -14,6 +14,13 @@ export const words: PageWords = {
   recent: "Recent models",
   saved: "Presets",
   keys: "Keys",
+  notices: {
+    part: "This part of the page could not be loaded; a newer version may have replaced it. Reload the page.",
+    reader: (name) => `The reader of print files could not be loaded, so ${name} is not open. Reload the page, and open the file again.`,
+    notKept: (name) => `${name} was not kept for the next visit: this browser has no room for it, or does not allow it.`,
+    reload: "Reload",
+    close: "Close",
+  },
   points: [
     ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],
     ["No step too high", "The tolerance holds in each layer, not on average."],

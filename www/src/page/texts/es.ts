@@ -14,6 +14,13 @@ export const words: PageWords = {
   recent: "Modelos recientes",
   saved: "Perfiles",
   keys: "Teclas",
+  notices: {
+    part: "No se pudo cargar esta parte de la página; quizá la sustituyó una versión más reciente. Recargue la página.",
+    reader: (name) => `No se pudo cargar el lector de archivos de impresión, así que ${name} no está abierto. Recargue la página y abra el archivo de nuevo.`,
+    notKept: (name) => `${name} no se guardó para la próxima visita: este navegador no tiene sitio o no lo permite.`,
+    reload: "Recargar",
+    close: "Cerrar",
+  },
   points: [
     ["El mínimo de capas", "De todos los planes que respetan su tolerancia se toma el más corto."],
     ["Ningún escalón de más", "La tolerancia se cumple en cada capa, no de media."],

@@ -14,6 +14,13 @@ export const words: PageWords = {
   recent: "Modèles récents",
   saved: "Préréglages",
   keys: "Touches",
+  notices: {
+    part: "Cette partie de la page n’a pas pu être chargée ; une version plus récente l’a peut-être remplacée. Rechargez la page.",
+    reader: (name) => `Le lecteur de fichiers d’impression n’a pas pu être chargé, si bien que ${name} n’est pas ouvert. Rechargez la page, puis rouvrez le fichier.`,
+    notKept: (name) => `${name} n’a pas été conservé pour la prochaine visite : ce navigateur manque de place ou ne le permet pas.`,
+    reload: "Recharger",
+    close: "Fermer",
+  },
   points: [
     ["Le moins de couches", "Parmi tous les plans qui respectent votre tolérance, le plus court est retenu."],
     ["Aucune marche trop haute", "La tolérance tient dans chaque couche, pas en moyenne."],

@@ -18,6 +18,17 @@ export interface PageWords {
   recent: string;
   saved: string;
   keys: string;
+  /** What went wrong with the page itself, and what to do about it. */
+  notices: {
+    /** A part could not be loaded. */
+    part: string;
+    /** Nor could the reader of print files, for this one. */
+    reader: (name: string) => string;
+    /** This browser does not keep the model. */
+    notKept: (name: string) => string;
+    reload: string;
+    close: string;
+  };
   /** What the page promises: a heading, and a sentence. */
   points: readonly (readonly [heading: string, sentence: string])[];
 }

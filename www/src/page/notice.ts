@@ -1,0 +1,16 @@
+/** What went wrong with the page itself, at the bottom of the window until it is closed. */
+import { html, nothing, type TemplateResult } from "lit";
+import { shown } from "../api/visible.js";
+import type { PageWords } from "./texts/index.js";
+
+/** A part or the reader of print files could not be loaded, so that only a reload helps; or a model could not be kept. */
+export type Notice = { says: "part" } | { says: "reader" | "notKept"; name: string };
+
+export function noticeBar(notice: Notice, { notices: words }: PageWords, close: () => void): TemplateResult {
+  const { says } = notice;
+  return html`<div id="notice" role="alert">
+    <p>${says === "part" ? words.part : words[says](shown(notice.name))}</p>
+    ${says === "notKept" ? nothing : html`<button @click=${() => location.reload()}>${words.reload}</button>`}
+    <button @click=${close}>${words.close}</button>
+  </div>`;
+}
