@@ -17,12 +17,11 @@ function addButton({ language, added }: Facts): TemplateResult {
 export function platePanel(facts: Facts): TemplateResult | typeof nothing {
   const { element, session, language, saveAll } = facts;
   const { plate, busy, failure } = session;
-  const [only] = plate.entries;
-  if (only === undefined) return nothing;
+  if (plate.entries.length === 0) return nothing;
   if (!plate.isSeveral) {
     const { copies } = language.texts.plate;
     return html`<div class="copies-row">
-      <span aria-hidden="true">${copies}</span>${copiesField(only, language, (count) => plate.setCopies(0, count))} ${addButton(facts)}
+      <span aria-hidden="true">${copies}</span>${copiesField(plate, 0, language)} ${addButton(facts)}
     </div>`;
   }
   if (!plateCode.isThere) return plateCode.instead(element, language);
@@ -40,6 +39,7 @@ export function platePanel(facts: Facts): TemplateResult | typeof nothing {
     .planned=${plate.planned}
     .placed=${plate.placed}
     .problems=${plate.problems}
+    .misread=${plate.misread}
     .isBusy=${busy !== null || failure !== null}
     .language=${language}
     @cusp-save-all=${saveAll}

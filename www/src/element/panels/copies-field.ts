@@ -1,36 +1,37 @@
 /** The number of copies of a model: typed, or stepped. */
-import { html, type TemplateResult } from "lit";
+import { html, nothing, type TemplateResult } from "lit";
 import { typed } from "../parts/typed.js";
-import { MOST_COPIES, type Entry } from "../state/plate.js";
+import { MOST_COPIES, type Plate } from "../state/plate.js";
+import { faultWords } from "../state/settings.js";
 import type { Language } from "../../texts/index.js";
 import { shown } from "../../api/visible.js";
 
-export function copiesField({ copies, model }: Entry, language: Language, changed: (copies: number) => void): TemplateResult {
+export function copiesField(plate: Plate, place: number, language: Language): TemplateResult | typeof nothing {
+  const entry = plate.entries[place];
+  if (entry === undefined) return nothing;
+  const { copies, key, model } = entry;
   const words = language.texts.plate;
-  const entered = ({ target }: Event): void => {
-    const input = target as HTMLInputElement;
-    const count = Math.round(Number(input.value.trim()));
-    if (count >= 1 && count <= MOST_COPIES) changed(count);
-    // What is no number of copies goes back to the number there is.
-    else input.value = String(copies);
-  };
-  const step = (name: string, sign: string, by: number): TemplateResult => html`<button
+  const name = words.copiesOf(shown(model.name));
+  const misread = plate.misread?.key === key ? plate.misread : null;
+  const step = (what: string, sign: string, by: number): TemplateResult => html`<button
     class="small step"
-    aria-label=${`${name}: ${words.copiesOf(shown(model.name))}`}
+    aria-label=${`${what}: ${name}`}
     ?disabled=${copies + by < 1 || copies + by > MOST_COPIES}
-    @click=${() => changed(copies + by)}
+    @click=${() => plate.setCopies(place, copies + by)}
   >
     ${sign}
   </button>`;
   return html`<span class="copies">
-    ${step(words.fewer, "−", -1)}
-    <input
-      type="text"
-      inputmode="numeric"
-      aria-label=${words.copiesOf(shown(model.name))}
-      .value=${typed(String(copies))}
-      @change=${entered}
-    />
-    ${step(words.more, "+", 1)}
-  </span>`;
+      ${step(words.fewer, "−", -1)}
+      <input
+        type="text"
+        inputmode="numeric"
+        aria-label=${name}
+        aria-invalid=${misread === null ? "false" : "true"}
+        .value=${typed(misread?.text ?? String(copies))}
+        @change=${({ target }: Event) => plate.typeCopies(place, (target as HTMLInputElement).value, language.format.decimal)}
+      />
+      ${step(words.more, "+", 1)}
+    </span>
+    ${misread === null ? nothing : html`<p class="copies-fault" role="alert">${faultWords(misread.fault, language)}</p>`}`;
 }

@@ -7,7 +7,7 @@ import { languageOf, type Language } from "../../texts/index.js";
 import { fetchProblemTexts } from "../../texts/problems.js";
 import { elementWith, given } from "../../view/properties.js";
 import { define } from "../define.js";
-import type { Entry, Plate } from "../state/plate.js";
+import type { Entry, MisreadCopies, Plate } from "../state/plate.js";
 import { quaternion } from "../state/settings.js";
 import { copiesStyles } from "../styles/copies-styles.js";
 import { shared } from "../styles/shared.js";
@@ -40,6 +40,7 @@ const PROPERTIES = {
   /** Where copies stand by hand. */
   placed: given<readonly Placement[]>([]),
   problems: given<readonly ArrangeError[]>([]),
+  misread: given<MisreadCopies | null>(null),
   isBusy: given(false),
   language: given<Language>(languageOf()),
 };
@@ -176,7 +177,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
         ? html`<button class="small remove" aria-label=${words.remove(shown(entry.model.name))} @click=${() => plate.remove(place)}>×</button>`
         : nothing}
       <div class="amount">
-        ${copiesField(entry, language, (count) => plate.setCopies(place, count))}
+        ${copiesField(plate, place, language)}
         ${share === undefined
           ? nothing
           : html`<span class="quiet figures">${words.each(format.time(share.print_time_s), format.millilitres(share.resin_ml))}</span>`}

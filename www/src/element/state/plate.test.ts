@@ -110,6 +110,19 @@ test("the number of copies stays within bounds, and what is no number changes no
   expect(plate.entries[0]?.copies).toBe(MOST_COPIES);
 });
 
+test("what is typed as a number of copies and is none stays on show with its fault; the copies stay as they are", () => {
+  plate.typeCopies(0, " 3 ");
+  expect([plate.entries[0]?.copies, plate.misread]).toEqual([3, null]);
+  const told_ = told.length;
+  for (const [text, fault] of [["many", "number"], ["", "number"], ["2.5", "whole"], ["0", "range"], ["1001", "range"], ["1.000", "grouped"]] as const) {
+    plate.typeCopies(0, text, ",");
+    expect([plate.entries[0]?.copies, plate.misread]).toMatchObject([3, { key: plate.entries[0]?.key, text, fault: { kind: fault } }]);
+  }
+  expect(told.slice(told_)).toEqual([]);
+  plate.setCopies(0, 3);
+  expect(plate.misread).toBeNull();
+});
+
 test("removing the selected model selects another; the last one stays", async () => {
   await plate.add([ring], {});
   plate.select(1);

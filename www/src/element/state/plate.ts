@@ -10,7 +10,8 @@ import { Brought } from "./brought.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
 import { jobOf } from "./job-options.js";
-import { quaternion, rotationText, type Settings } from "./settings.js";
+import { quaternion, rotationText, type Fault, type Settings } from "./settings.js";
+import { read } from "./typed.js";
 
 /** What the settings say about the selected model alone. */
 export type Pose = Pick<Settings, "rotation" | "height">;
@@ -64,6 +65,13 @@ export interface Copy {
   readonly supports: Float32Array | null;
 }
 
+/** A number of copies that is none, as it was typed for a model. */
+export interface MisreadCopies {
+  readonly key: number;
+  readonly text: string;
+  readonly fault: Fault;
+}
+
 export interface PlateHost {
   changed(): void;
   /** Models, copies or places are about to change; `kind` is that of an undo step, and null if the change is none. */
@@ -94,6 +102,8 @@ export class Plate {
   /** The models of that plan. */
   #planned: readonly Entry[] = [];
   problems: readonly ArrangeError[] = [];
+  /** The last number of copies that was typed, if it is none. */
+  misread: MisreadCopies | null = null;
   readonly #host: PlateHost;
   readonly #slicer: SlicerCalls;
   readonly #brought: Brought;
@@ -213,7 +223,22 @@ export class Plate {
     this.#host.replate();
   }
 
+  /** Sets the number of copies that was typed. One that is none is shown with its fault. */
+  typeCopies(place: number, text: string, decimal?: string): void {
+    const key = this.entries[place]?.key;
+    const { value, fault: kind } = read(text, "", decimal);
+    const within = { value, least: 1, most: MOST_COPIES, unit: "" } as const;
+    let fault: Fault | null = null;
+    if (value === null) fault = { kind, ...within };
+    else if (!Number.isInteger(value)) fault = { kind: "whole" };
+    else if (value < 1 || value > MOST_COPIES) fault = { kind: "range", ...within };
+    else this.setCopies(place, value);
+    this.misread = fault === null || key === undefined ? null : { key, text, fault };
+    this.#host.changed();
+  }
+
   setCopies(place: number, copies: number): void {
+    this.misread = null;
     const entry = this.entries[place];
     const within = countOf(copies);
     if (entry === undefined || Number.isNaN(within) || within === entry.copies) return;
@@ -250,6 +275,7 @@ export class Plate {
     const isSelected = chosen.key === this.entries[this.selected]?.key;
     if (isSame && isSelected && arranging === this.arranging && placed === this.placed) return false;
     const { number } = this;
+    this.misread = null;
     // What was painted has steps of its own.
     const painted = new Map(this.entries.map(({ key, weights }) => [key, weights]));
     this.#take(entries.map((entry) => ({ ...entry, weights: painted.has(entry.key) ? (painted.get(entry.key) ?? null) : entry.weights })));

@@ -10,6 +10,11 @@ export const copiesStyles = css`
     border-radius: 0;
     text-align: center;
   }
+  .copies-fault {
+    flex-basis: 100%;
+    color: var(--cusp-bad);
+    font-size: 0.8125rem;
+  }
   .copies .step {
     min-width: 2.25rem;
     padding: 0;
