@@ -1,8 +1,9 @@
 /** From a file to a print file, in a real browser: opening, refusing, planning, looking, saving. */
-import { readFile } from "node:fs/promises";
+import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
 import { decode } from "fast-png";
 import { unzipSync, zipSync } from "fflate";
-import { expect, test } from "vitest";
+import { expect, inject, test } from "vitest";
 import { download, drop, layers, maskOf, openPanel, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { objOf, projectOf, sphere, threeMfOf } from "./solids.js";
@@ -112,7 +113,7 @@ test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: 
   expect(await page.locator(".model").innerText()).toContain(facets.toLocaleString("en"));
 });
 
-test("files that will not do are refused in words, and the page goes on with the model before", async () => {
+test("files, links and folders that will not do are refused in words, and the page goes on with the model before", async () => {
   const page = await start("?rays=512");
   const alert = page.getByRole("alert");
   await drop(page, { name: "notes.txt", bytes: new TextEncoder().encode("hello") });
@@ -145,4 +146,22 @@ test("files that will not do are refused in words, and the page goes on with the
   await drop(page, { name: "ball", bytes: stl });
   await state(page, "done");
   expect(await page.locator(".model-name").innerText()).toBe("ball");
+
+  const folder = await mkdtemp(join(inject("scratch"), "things-"));
+  const cdp = await page.context().newCDPSession(page);
+  const dropped = async (data: { items: { mimeType: string; data: string }[]; files: string[] }): Promise<void> => {
+    for (const type of ["dragEnter", "dragOver", "drop"] as const) {
+      await cdp.send("Input.dispatchDragEvent", { type, x: 600, y: 400, data: { ...data, dragOperationsMask: 1 } });
+    }
+  };
+  await dropped({ items: [{ mimeType: "text/uri-list", data: "https://models.example/ball.stl" }], files: [] });
+  await expect.poll(() => alert.innerText()).toMatch(/^models\.example could not be opened\s+This is a link, not a file\./);
+  await writeFile(join(folder, "notes.txt"), "hello");
+  await dropped({ items: [], files: [folder] });
+  await expect.poll(() => alert.innerText()).toContain("The folder holds no STL, 3MF or OBJ file.");
+  await mkdir(join(folder, "parts"));
+  await writeFile(join(folder, "parts/deep.stl"), stl);
+  await dropped({ items: [], files: [folder] });
+  await expect.poll(() => page.locator(".model-name").innerText()).toBe("deep.stl");
+  await state(page, "done");
 });

@@ -18,6 +18,10 @@ interface OwnDetails {
   "bad-index": { place: number; index: number; vertices: number };
   /** An argument must be a whole number, counted from 0. */
   "bad-number": { argument: string; value: unknown };
+  /** What was dropped is a link to a file, not the file. */
+  "dropped-link": null;
+  /** What was dropped is a folder without any model. */
+  "folder-without-model": null;
   /** The file that should describe a printer holds no JSON object. */
   "printer-not-json": SystemDetail;
   /** That file is longer than any description of a printer. */

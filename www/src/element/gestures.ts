@@ -1,9 +1,9 @@
 /** Gestures on the whole element: dropping and pasting files, and keyboard shortcuts. */
+import { takeDrop, type DropHost } from "./dropped.js";
 
-export interface Gestures {
+export interface Gestures extends DropHost {
   /** Files are dragged over the element, or have left it. */
   dragging(isOver: boolean): void;
-  open(files: readonly File[]): void;
   cancel(): void;
   undo(): void;
   redo(): void;
@@ -18,7 +18,7 @@ export function watchGestures(element: HTMLElement, gestures: Gestures): void {
   element.addEventListener("drop", (event) => {
     event.preventDefault();
     gestures.dragging(false);
-    gestures.open([...(event.dataTransfer?.files ?? [])]);
+    takeDrop(event.dataTransfer, gestures);
   });
   element.addEventListener("paste", (event) => {
     const files = [...(event.clipboardData?.files ?? [])];

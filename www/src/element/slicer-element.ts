@@ -51,6 +51,7 @@ export abstract class SlicerElement extends SettableElement {
     watchGestures(this, {
       dragging: (isOver) => (this.dragging = isOver),
       open: (files) => void this.#choose(files),
+      refuse: (error, name) => this.refuse(error, name),
       cancel: () => this.cancel(),
       undo: () => this.undo(),
       redo: () => this.redo(),
@@ -238,6 +239,11 @@ export abstract class SlicerElement extends SettableElement {
 
   /** Whether a model was opened with a button of the empty element, so that the focus will be lost. */
   #orphaned = false;
+
+  /** @internal Shows why what somebody brought cannot be opened. */
+  refuse(error: SlicerError, name: string): void {
+    this.session.refuse(error, name);
+  }
 
   /** @internal Called before a model is opened with a button that disappears once it is open. */
   willOrphan(): void {

@@ -59,6 +59,7 @@ test("the list names every key of the element", () => {
   watchGestures(element as HTMLElement, {
     dragging: note("dragging"),
     open: note("open"),
+    refuse: note("refuse"),
     cancel: note("cancel"),
     undo: note("undo"),
     redo: note("redo"),

@@ -142,6 +142,10 @@ async function start(): Promise<void> {
   openAnywhere({
     dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
     open: (files) => void open(files),
+    refuse(error, name) {
+      close();
+      slicer.refuse(error, name);
+    },
     cancel: () => (shown === null ? slicer.cancel() : close()),
   });
   workOffline();

@@ -1,12 +1,13 @@
 /** Lets files be dropped or pasted anywhere on the page, and Escape cancel wherever the focus is. */
+import { takeDrop, type DropHost } from "../element/dropped.js";
 
-export interface Anywhere {
+export interface Anywhere extends DropHost {
   dragging(is: boolean): void;
-  open(files: readonly File[]): void;
   cancel(): void;
 }
 
-export function openAnywhere({ dragging, open, cancel }: Anywhere): void {
+export function openAnywhere(anywhere: Anywhere): void {
+  const { dragging, open, cancel } = anywhere;
   // Captured before the element sees them, so that it need not tell its own drops from the page's. A drop beside the
   // element must not make the browser leave the page.
   window.addEventListener(
@@ -28,7 +29,7 @@ export function openAnywhere({ dragging, open, cancel }: Anywhere): void {
       event.preventDefault();
       event.stopPropagation();
       dragging(false);
-      open([...(event.dataTransfer?.files ?? [])]);
+      takeDrop(event.dataTransfer, anywhere);
     },
     { capture: true },
   );

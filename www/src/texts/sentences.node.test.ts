@@ -24,6 +24,8 @@ const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   "bad-attribute": { attribute: "metric", value: "beauty", known: ["cusp", "area"] },
   "no-model": null,
   "file-unreadable": null,
+  "dropped-link": null,
+  "folder-without-model": null,
   "printer-not-json": { system: "Unexpected end of JSON input" },
   "bad-source": { given: "Number" },
   "bad-facets": { list: "positions", numbers: 10, multiple_of: 9 },

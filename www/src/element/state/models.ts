@@ -181,7 +181,7 @@ export abstract class Models extends Preferences {
       });
       this.change({ printer });
     } catch (error) {
-      this.#refused(error, file.name, settings);
+      this.refuse(error, file.name, settings);
     }
   }
 
@@ -192,7 +192,7 @@ export abstract class Models extends Preferences {
       const weights = await this.slicer.readWeights(file);
       if (this.model === model) this.setWeights(weights, true);
     } catch (error) {
-      if (this.model === model && !isAbort(error)) this.#refused(error, file.name);
+      if (this.model === model && !isAbort(error)) this.refuse(error, file.name);
     }
   }
 
@@ -294,8 +294,8 @@ export abstract class Models extends Preferences {
     return { pose: { rotation, height }, ...(options !== null && { own: ownOf(options) }) };
   }
 
-  /** Shows why a file cannot be used. */
-  #refused(error: unknown, name: string, settings = this.settings): void {
+  /** Shows why something cannot be used. */
+  refuse(error: unknown, name: string, settings = this.settings): void {
     this.fail(error, name, settings);
     this.changed();
   }

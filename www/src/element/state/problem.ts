@@ -149,6 +149,8 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-facets": "other",
   "bad-index": "other",
   "bad-number": "other",
+  "dropped-link": "unreadable",
+  "folder-without-model": "unreadable",
   "fetch-failed": "notFetched",
   "start-failed": "startFailed",
   "worker-failed": "startFailed",

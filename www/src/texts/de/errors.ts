@@ -221,6 +221,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-index": ({ place, index, vertices }) =>
     `Der Index an Stelle ${count(place)} ist ${exact(index)} und keine Ecke: Es gibt ${count(vertices)}, ab 0.`,
   "bad-number": ({ argument, value }) => `Das Argument ${argument} ist ${String(value)} und muss eine ganze Zahl ab 0 sein.`,
+  "dropped-link": () => "Das ist ein Link, keine Datei. Laden Sie das Modell herunter, und ziehen Sie die Datei hierher.",
+  "folder-without-model": () => "Der Ordner enthält keine STL-, 3MF- oder OBJ-Datei. Ziehen Sie den mit den Modellen hierher oder ein Modell selbst.",
   "fetch-failed": (detail) =>
     "status" in detail ? `Unter dieser Adresse kam keine Datei (HTTP ${detail.status}).` : `Die Adresse hat nicht geantwortet (${detail.system}).`,
   "worker-failed": ({ system }) =>

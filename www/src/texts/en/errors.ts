@@ -221,6 +221,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-index": ({ place, index, vertices }) =>
     `The index at place ${count(place)} is ${exact(index)}, which is no vertex: there are ${count(vertices)}, from 0.`,
   "bad-number": ({ argument, value }) => `The argument ${argument} is ${String(value)}, and must be a whole number from 0.`,
+  "dropped-link": () => "This is a link, not a file. Download the model, and drop the file here.",
+  "folder-without-model": () => "The folder holds no STL, 3MF or OBJ file. Drop the one with the models, or a model itself.",
   "fetch-failed": (detail) =>
     "status" in detail ? `The address did not answer with a file (HTTP ${detail.status}).` : `The address did not answer (${detail.system}).`,
   "worker-failed": ({ system }) => `Reload the page. If that does not help, tell whoever runs it: a script is missing, or the page’s policy forbids the worker. (${system})`,

@@ -221,6 +221,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-index": ({ place, index, vertices }) =>
     `El índice en el lugar ${count(place)} es ${exact(index)}, que no es un vértice: hay ${count(vertices)}, desde 0.`,
   "bad-number": ({ argument, value }) => `El argumento ${argument} es ${String(value)} y debe ser un número entero desde 0.`,
+  "dropped-link": () => "Esto es un enlace, no un archivo. Descargue el modelo y suelte el archivo aquí.",
+  "folder-without-model": () => "La carpeta no contiene ningún archivo STL, 3MF u OBJ. Suelte la que tiene los modelos o un modelo.",
   "fetch-failed": (detail) =>
     "status" in detail ? `En esa dirección no había un archivo (HTTP ${detail.status}).` : `La dirección no respondió (${detail.system}).`,
   "worker-failed": ({ system }) =>

@@ -222,6 +222,8 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "bad-index": ({ place, index, vertices }) =>
     `L’indice à la place ${count(place)} est ${exact(index)}, qui n’est pas un sommet : il y en a ${count(vertices)}, à partir de 0.`,
   "bad-number": ({ argument, value }) => `L’argument ${argument} est ${String(value)} et doit être un nombre entier à partir de 0.`,
+  "dropped-link": () => "Ceci est un lien, pas un fichier. Téléchargez le modèle, puis déposez le fichier ici.",
+  "folder-without-model": () => "Le dossier ne contient aucun fichier STL, 3MF ou OBJ. Déposez celui des modèles, ou un modèle.",
   "fetch-failed": (detail) =>
     "status" in detail ? `Aucun fichier à cette adresse (HTTP ${detail.status}).` : `L’adresse n’a pas répondu (${detail.system}).`,
   "worker-failed": ({ system }) =>

@@ -207,6 +207,8 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "bad-facets": ({ list, numbers, multiple_of }) => `列表 ${list} 有 ${count(numbers)} 个数，应为 ${exact(multiple_of)} 的倍数。`,
   "bad-index": ({ place, index, vertices }) => `第 ${count(place)} 位的索引为 ${exact(index)}，不是顶点：从 0 起共有 ${count(vertices)} 个。`,
   "bad-number": ({ argument, value }) => `参数 ${argument} 为 ${String(value)}，必须是从 0 起的整数。`,
+  "dropped-link": () => "这是链接，不是文件。请下载模型，然后将文件拖放到此处。",
+  "folder-without-model": () => "文件夹中没有 STL、3MF 或 OBJ 文件。请拖放包含模型的文件夹，或直接拖放模型。",
   "fetch-failed": (detail) =>
     "status" in detail ? `该地址没有返回文件（HTTP ${detail.status}）。` : `该地址没有回应（${detail.system}）。`,
   "worker-failed": ({ system }) => `请重新加载页面。若无效，请告知网站管理员：缺少脚本，或页面的策略不允许该 worker。（${system}）`,
