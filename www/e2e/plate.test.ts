@@ -55,10 +55,11 @@ test("copies are typed and stepped, and fill a second plate, which has a print f
   await page.locator("cusp-plate").waitFor();
   await state(page, "done");
   expect(await copies(page, "ball.stl").inputValue()).toBe("2");
-  // What is no number of copies goes back.
   await copies(page, "ball.stl").fill("many");
   await copies(page, "ball.stl").press("Enter");
-  expect(await copies(page, "ball.stl").inputValue()).toBe("2");
+  expect(await page.locator("cusp-plate").getByRole("alert").innerText()).toBe("Enter a number, 1 to 1,000.");
+  expect(await copies(page, "ball.stl").inputValue()).toBe("many");
+  expect(await broken(page)).toEqual([]);
   // On 153 × 78 mm there is room for 20 balls of 20 mm.
   await copies(page, "ball.stl").fill("21");
   await copies(page, "ball.stl").press("Enter");
@@ -73,7 +74,7 @@ test("copies are typed and stepped, and fill a second plate, which has a print f
   expect((await downloaded(page)).name).toBe("plate-2-cusp.goo");
 });
 
-test("a model is added to the open one; each has its own pose; removed, the other is as it was alone", async () => {
+test("a model is added to the open one, which the page keeps from being closed; each has its own pose; removed, the other is as it was alone", async () => {
   const page = await start("?printer=mars-4-ultra&height=8");
   await drop(page, ballFile);
   await state(page, "done");
@@ -83,6 +84,10 @@ test("a model is added to the open one; each has its own pose; removed, the othe
   await page.locator("cusp-plate").waitFor();
   await state(page, "done");
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
+  // To leave the page would lose how they stand: it asks.
+  const [question] = await Promise.all([page.waitForEvent("dialog"), page.close({ runBeforeUnload: true })]);
+  expect(question.type()).toBe("beforeunload");
+  await question.dismiss();
   await page.locator("cusp-plate .name", { hasText: "ball.stl" }).click();
   await expect.poll(() => page.locator(".model > .figures").first().innerText()).toMatch(/× 8\.0\smm/);
   // The height is that of the selected model.

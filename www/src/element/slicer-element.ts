@@ -30,6 +30,15 @@ export interface ModelOnPlate extends Model {
   own: Pick<ModelOptions, "copies" | "rotation" | "height_mm">;
 }
 
+/** What a person made by hand, which is gone with the page. */
+export interface Handwork {
+  isPainted: boolean;
+  /** The settings of these names. */
+  points: string;
+  drains: string;
+  models: number;
+}
+
 export abstract class SlicerElement extends SettableElement {
   static override properties = { ...DECLARATIONS, dragging: { state: true } };
 
@@ -239,6 +248,12 @@ export abstract class SlicerElement extends SettableElement {
 
   /** Whether a model was opened with a button of the empty element, so that the focus will be lost. */
   #orphaned = false;
+
+  /** @internal */
+  handwork(): Handwork {
+    const { plate: { entries }, settings: { points, drains } } = this.session;
+    return { isPainted: entries.some(({ weights }) => weights !== null), points, drains, models: entries.length };
+  }
 
   /** @internal Shows why what somebody brought cannot be opened. */
   refuse(error: SlicerError, name: string): void {

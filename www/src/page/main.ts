@@ -8,6 +8,7 @@ import { idle } from "../api/calls.js";
 import { fetchView } from "../element/panels/model-view.js";
 import { isNamedAsModel } from "../element/state/choice.js";
 import { isModel } from "./is-model.js";
+import { askBeforeLeaving } from "./leaving.js";
 import type { Notice } from "./notice.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
@@ -139,6 +140,7 @@ async function start(): Promise<void> {
   const method = own.get("gpu-method");
   if (method === "fill" || method === "peel") slicer.gpuMethod = method;
   slicer.addEventListener("cusp-change", keep);
+  askBeforeLeaving(slicer, settingsOf(asked));
   openAnywhere({
     dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
     open: (files) => void open(files),
