@@ -196,15 +196,17 @@ export function createSlicer(setup: Setup = {}): Slicer {
   if (setup.spawn === undefined && globalThis.Worker === undefined) return absentSlicer();
   const folder = typeof assets === "function" ? assets : (): Assets => assets;
   const spawn = setup.spawn ?? ((): WorkerHandle => spawnWorker(folder()));
+  // Those of fakes are none.
+  const modules = setup.spawn === undefined ? MODULES : new Map<string, Compiled["module"]>();
   const compiled: Compiled = {
     get address() {
       return wasmAddress(folder());
     },
     get module() {
-      return MODULES.get(compiled.address) ?? null;
+      return modules.get(compiled.address) ?? null;
     },
     set module(module) {
-      MODULES.set(compiled.address, module);
+      modules.set(compiled.address, module);
     },
   };
   const client = (): Client => new Client(spawn, compiled);
