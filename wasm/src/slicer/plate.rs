@@ -1,6 +1,7 @@
 //! Several models in one job, in the browser.
 
 use cusp_slicer::arrange::Arranging;
+use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{self, Placement, PlateOptions};
 use cusp_slicer::profile::{Metric, Source};
 use js_sys::Function;

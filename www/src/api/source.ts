@@ -87,7 +87,7 @@ function cornersOf({ positions, indices }: IndexedFacets): Float32Array {
   return corners;
 }
 
-/** A list of so many numbers an item. */
+/** Numbers, whose count has to be a multiple of this. */
 function whole<List extends ArrayLike<number>>(list: "positions" | "indices", numbers: List, multiple_of: number): List {
   if (numbers.length % multiple_of === 0) return numbers;
   const message = `${list}: ${numbers.length} numbers are no multiple of ${multiple_of}`;
