@@ -6,8 +6,8 @@ import { join } from "node:path";
 import { promisify } from "node:util";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
-import type { Check } from "../src/api/index.js";
 import type { CuspView } from "../src/view/cusp-view.js";
+import type { Check } from "../src/api/index.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
@@ -31,7 +31,7 @@ const verdict = (page: Page): Promise<string | null> => page.locator("cusp-findi
 test("a cup is found, chosen by click or key it is shown and marked, and upside down it is none", async () => {
   const page = await opened();
   expect(await verdict(page)).toBe("review");
-  const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings ?? []);
+  const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings ?? []);
   expect(finding?.code).toBe("cup");
   const found = page.getByRole("button", { name: /^A hollow of/ });
   expect(await found.count()).toBe(1);
@@ -53,7 +53,7 @@ test("a cup is found, chosen by click or key it is shown and marked, and upside 
   await openPanel(page, "Check");
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query = "rotation=1,0,0,0"));
   await settled(page);
-  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings.map(({ code }) => code))).not.toContain("cup");
+  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings.map(({ code }) => code))).not.toContain("cup");
   await expect.poll(() => found.count()).toBe(0);
   expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
 });

@@ -7,10 +7,12 @@ const findingsCode = new FetchedPanel("findings", () => import("./panels/finding
 
 export function findingsPanel({ element, session, language, panels }: Facts): TemplateResult | typeof nothing {
   if (!findingsCode.isThere) return findingsCode.instead(element, language);
-  const { checks, result, settings } = session;
+  const { checks, result, settings, plate } = session;
   return html`<cusp-findings
     .checks=${checks}
-    .check=${checks.last}
+    .verdict=${checks.last?.verdict ?? null}
+    .models=${checks.models}
+    .names=${plate.entries.map(({ model }) => model.name)}
     .isCurrent=${checks.isCurrent}
     .error=${checks.error}
     .chosen=${checks.chosen}

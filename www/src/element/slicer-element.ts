@@ -4,7 +4,7 @@
  */
 import { nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type Check, type Model, type Plan, type PlatesPlan, type PrintFile } from "../api/index.js";
+import { SCHEMA, type Check, type Model, type Plan, type PlateCheck, type PlatesPlan, type PrintFile } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { ModelOptions } from "../api/wire.js";
 import { fetchLanguage, languageOf } from "../texts/index.js";
@@ -117,7 +117,7 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   /** What will fail when the last plan is printed, and the verdict; null until it is checked: see `limits`. */
-  get check(): Check | null {
+  get check(): Check | PlateCheck | null {
     return this.session.checks.check;
   }
 

@@ -1,17 +1,19 @@
 /** `<cusp-findings>`: what will fail when the plan is printed, by kind. Choosing a finding shows where it is. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { until } from "lit/directives/until.js";
-import type { Check, SlicerError } from "../../api/index.js";
-import type { Code, Count, Finding, Metric, Severity } from "../../api/wire.js";
+import type { SlicerError } from "../../api/index.js";
+import type { Count, Finding, Metric, Printability, Severity } from "../../api/wire.js";
 import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { fetchProblemTexts } from "../../texts/problems.js";
 import { elementWith, given, own } from "../../view/properties.js";
 import { define } from "../define.js";
+import type { Checked } from "../state/checked.js";
 import type { Checks } from "../state/checks.js";
 import { viewTexts } from "../parts/view-texts.js";
 import { findingsStyles } from "../styles/findings-styles.js";
 import { shared } from "../styles/shared.js";
+import { shown } from "../../api/visible.js";
 
 /** How many findings of a kind are shown at first. */
 const FEW = 3;
@@ -26,13 +28,16 @@ const SIGNS = {
 
 const PROPERTIES = {
   checks: given<Checks | null>(null),
-  /** The last check; of an earlier plan, unless it is current. */
-  check: given<Check | null>(null),
+  /** The verdict of the last check; of an earlier plan, unless it is current. */
+  verdict: given<Printability["verdict"] | null>(null),
+  /** What it found on each model, whose names these are. */
+  models: given<readonly Checked[]>([]),
+  names: given<readonly string[]>([], (a: unknown, b: unknown) => String(a) !== String(b)),
   isCurrent: given(false),
   /** Why the plan could not be checked. */
   error: given<SlicerError | null>(null),
   chosen: given<Finding | null>(null),
-  /** Whether the plan is that of a single model, which alone is checked. */
+  /** Whether the plan is that of a single model, whose walls can be shown. */
   isAlone: given(true),
   /** Whether there is a view to show how thick walls are. */
   hasView: given(true),
@@ -41,8 +46,8 @@ const PROPERTIES = {
   wall_mm: given(0),
   metric: given<Metric>("cusp"),
   language: given<Language>(languageOf()),
-  /** The kinds of which all findings are shown. */
-  whole: own<ReadonlySet<Code>>(new Set()),
+  /** The kinds of a model of which all findings are shown. */
+  whole: own<ReadonlySet<string>>(new Set()),
 };
 
 export class CuspFindings extends elementWith(PROPERTIES) {
@@ -63,29 +68,27 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   }
 
   override render(): TemplateResult {
-    const { check, isCurrent, error, language } = this;
+    const { verdict, models, isCurrent, error, language } = this;
     const words = findingsTexts(language);
     return html`
       <div class="head"><h3>${language.texts.findings.title}</h3></div>
       <div role="status">${this.#verdict(words)}</div>
       ${this.hasView && this.isAlone ? this.#walls(words) : nothing}
-      ${check === null || error !== null || !this.isAlone
+      ${verdict === null || error !== null
         ? nothing
         : html`<div class="kinds ${isCurrent ? "" : "old"}" @keydown=${this.#pressed}>
-            ${check.findings.length > 0 ? html`<p class="quiet">${words.hint}</p>` : nothing}
-            ${check.counts.map((count) => this.#kind(count, check, words))}
+            ${this.#hasFindings ? html`<p class="quiet">${words.hint}</p>` : nothing}
+            ${models.map((checked, place) => this.#model(checked, place, words))}
           </div>`}
     `;
   }
 
   #verdict(words: FindingsTexts): TemplateResult {
-    const { check, error, isAlone, isCurrent, language, metric } = this;
-    if (!isAlone) return html`<p class="quiet">${words.alone}</p>`;
+    const { verdict, error, isCurrent, language, metric } = this;
     if (error !== null) return html`<p class="quiet failed">${until(sentenceOf(error, language, metric))}</p>`;
-    if (check === null || !isCurrent) return html`<p class="quiet">${words.checking}</p>`;
-    const { verdict } = check;
+    if (verdict === null || !isCurrent) return html`<p class="quiet">${words.checking}</p>`;
     return html`<p class="verdict ${verdict}" data-verdict=${verdict}>${sign(verdict)} ${words.verdicts[verdict]}</p>
-      ${check.findings.length === 0 ? html`<p class="quiet">${words.none}</p>` : nothing}`;
+      ${!this.#hasFindings ? html`<p class="quiet">${words.none}</p>` : nothing}`;
   }
 
   /** The switch for the colours of the model. */
@@ -107,30 +110,42 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       ${showsWalls ? html`<cusp-wall-legend .wall_mm=${wall_mm} .texts=${viewTexts(this.language)}></cusp-wall-legend>` : nothing}`;
   }
 
-  #kind({ code, found }: Count, { findings }: Check, words: FindingsTexts): TemplateResult {
+  get #hasFindings(): boolean {
+    return this.models.some(({ found }) => found.findings.length > 0);
+  }
+
+  /** The findings of a model, below its name if there are several. */
+  #model({ model, copies, found }: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
+    if (found.findings.length === 0) return nothing;
+    const name = model === null ? null : shown(this.names[model] ?? "");
+    return html`${name === null ? nothing : html`<h4 class="model">${this.language.format.count(copies)} × ${name}</h4>`}
+    ${found.counts.map((count) => this.#kind(count, found, `${count.code}-${place}`, words))}`;
+  }
+
+  #kind({ code, found }: Count, { findings }: Checked["found"], id: string, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const listed = findings.filter((finding) => finding.code === code);
     const { severity } = listed[0] ?? { severity: "review" as const };
     const isChosenLate = this.chosen !== null && listed.indexOf(this.chosen) >= FEW;
-    const shown = this.whole.has(code) || isChosenLate ? listed : listed.slice(0, FEW);
-    return html`<section aria-labelledby=${code}>
-      <h4 id=${code}>
+    const shown = this.whole.has(id) || isChosenLate ? listed : listed.slice(0, FEW);
+    return html`<section aria-labelledby=${id}>
+      <h4 id=${id}>
         ${sign(severity)} <span class="name">${words.kinds[code]}</span> <span class="count figures">${format.count(found)}</span>
         <span class="severity quiet">${words.severities[severity]}</span>
       </h4>
-      <p class="quiet" id="${code}-advice">${words.advice[code]}</p>
+      <p class="quiet" id="${id}-advice">${words.advice[code]}</p>
       <ul>
-        ${shown.map((finding) => this.#item(finding, words))}
+        ${shown.map((finding) => this.#item(finding, id, words))}
       </ul>
       ${shown.length < listed.length
-        ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, code]))}>${words.all(format.count(listed.length))}</button>`
+        ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, id]))}>${words.all(format.count(listed.length))}</button>`
         : found > listed.length
           ? html`<p class="quiet">${words.smaller(format.count(found - listed.length))}</p>`
           : nothing}
     </section>`;
   }
 
-  #item(finding: Finding, words: FindingsTexts): TemplateResult {
+  #item(finding: Finding, id: string, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const { at_mm, layers: [first, last], code } = finding;
     const place = `${at_mm.map((mm) => format.tick(Math.round(mm * 100) / 100)).join(" / ")}\u00a0mm`;
@@ -139,7 +154,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       <button
         class="finding"
         aria-pressed=${finding === this.chosen ? "true" : "false"}
-        aria-describedby="${code}-advice"
+        aria-describedby="${id}-advice"
         ?disabled=${!this.isCurrent}
         @click=${() => this.checks?.choose(finding)}
       >

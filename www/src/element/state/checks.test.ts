@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type Check } from "../../api/index.js";
+import { SCHEMA, type Check, type PlateCheck } from "../../api/index.js";
 import type { Finding, Report } from "../../api/wire.js";
 import { planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer } from "./session-fixture.js";
@@ -47,7 +47,7 @@ test("nothing is checked before somebody wants to know", async () => {
   await open();
   expect(asked()).toBe(1);
   await answer(checkOf("cup"));
-  expect(session.checks.check?.findings).toHaveLength(1);
+  expect(session.checks.models[0]?.found.findings).toHaveLength(1);
 });
 
 test("each new plan is checked again while the panel is open, and the earlier check counts no more", async () => {
@@ -61,7 +61,7 @@ test("each new plan is checked again while the panel is open, and the earlier ch
   await settle();
   expect(slicer.last.what).toBe("check");
   expect(session.checks.check).toBeNull();
-  expect(session.checks.last?.findings).toHaveLength(1);
+  expect(session.checks.models[0]?.found.findings).toHaveLength(1);
   await answer(checkOf());
   expect(session.checks.check?.verdict).toBe("ok");
   session.checks.isOpen = false;
@@ -82,7 +82,7 @@ test("a check that is overtaken by a plan is dropped, and made again for that pl
   expect(session.checks.last).toBeNull();
   expect(slicer.last.what).toBe("check");
   await answer(checkOf("trap", "speck"));
-  expect(session.checks.check?.findings).toHaveLength(2);
+  expect(session.checks.models[0]?.found.findings).toHaveLength(2);
   expect(asked()).toBe(2);
 });
 
@@ -102,15 +102,33 @@ test("limits are a wish of their own, and other limits check again", async () =>
   expect(asked()).toBe(2);
 });
 
-test("several models are not checked", async () => {
+test("on a plate each model is checked, and its findings are where its first copy stands", async () => {
   await planned();
   session.change({ tolerances: { ...session.settings.tolerances, volume: "20" } });
   await settle();
   const plan = planOf(8);
-  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: {} } as unknown as Report });
+  const placements = [
+    { model: 0, x_mm: 1, y_mm: 2 },
+    { model: 1, x_mm: -20, y_mm: 5, turn_deg: 45 },
+    { model: 1, x_mm: 20, y_mm: 5, turn_deg: 45 },
+  ];
+  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: { plate: 3, placements } } as unknown as Report });
   await settle();
+  const { findings, counts } = checkOf("cup");
+  const found = { findings: [], counts: [], verdict: "ok", bodies: 1, peel } as const;
+  const check: PlateCheck = {
+    schema: SCHEMA,
+    verdict: "review",
+    models: [{ ...found, findings: [], counts: [], model: 0, turn_deg: 0 }, { ...found, verdict: "review", findings, counts, model: 1, turn_deg: 45 }],
+  };
+  const plates: unknown[] = [];
+  Object.assign(slicer.plate, { check: async (...given: unknown[]) => (plates.push(given), check) });
   await open();
-  expect(asked()).toBe(0);
+  expect([asked(), plates]).toEqual([0, [[3, {}]]]);
+  expect(session.checks.check).toBe(check);
+  const [sound, cup] = session.checks.models;
+  expect(sound).toMatchObject({ model: 0, copies: 1, found: { findings: [] } });
+  expect(cup).toMatchObject({ model: 1, copies: 2, found: { counts, findings: [{ at_mm: [-20, 5, 1], bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }] } });
 });
 
 test("a failure is the panel's alone, and stays until there is another plan", async () => {
@@ -131,7 +149,7 @@ test("a finding that is chosen shows its first layer; again, null and another pl
   await planned();
   await open();
   await answer(checkOf("cup", "trap"));
-  const [cup, trap] = session.checks.check?.findings ?? [];
+  const [cup, trap] = session.checks.models[0]?.found.findings ?? [];
   if (cup === undefined || trap === undefined) throw new Error("there are no findings");
   session.checks.choose(cup);
   expect(session.layer).toBe(3);

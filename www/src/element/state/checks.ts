@@ -1,9 +1,10 @@
-/** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan of a single model. */
+/** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan. */
 import { isAbort, SlicerError } from "../../api/error.js";
-import type { Check, Slicer } from "../../api/index.js";
+import type { Check, PlateCheck, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { WALL_MM } from "../../view/walls/scale.js";
 import { isEqual } from "./plain.js";
+import { checkedOf, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -12,7 +13,7 @@ export interface ChecksHost {
   changed(): void;
   /** A check is wanted now. */
   wanted(): void;
-  checked(check: Check): void;
+  checked(check: Check | PlateCheck): void;
   unchecked(error: SlicerError): void;
   /** A finding was chosen: its first layer is to be shown. */
   look(layer: number): void;
@@ -26,9 +27,11 @@ interface Subject {
 
 export class Checks {
   /** The last check, which may be of an earlier plan. */
-  last: Check | null = null;
+  last: Check | PlateCheck | null = null;
+  /** The models of that check. */
+  models: readonly Checked[] = [];
   readonly #host: ChecksHost;
-  readonly #slicer: Pick<Slicer, "check">;
+  readonly #slicer: Pick<Slicer, "check" | "plate">;
   #limits: Limits | null = null;
   #isOpen = false;
   #chosen: Finding | null = null;
@@ -37,7 +40,7 @@ export class Checks {
   /** The plan and the limits of the last check, or of its failure. */
   #of: Subject | null = null;
 
-  constructor(host: ChecksHost, slicer: Pick<Slicer, "check">) {
+  constructor(host: ChecksHost, slicer: Pick<Slicer, "check" | "plate">) {
     this.#host = host;
     this.#slicer = slicer;
   }
@@ -86,7 +89,7 @@ export class Checks {
   }
 
   /** The check of the plan shown; null until it is made. */
-  get check(): Check | null {
+  get check(): Check | PlateCheck | null {
     return this.isCurrent && this.#error === null ? this.last : null;
   }
 
@@ -107,14 +110,14 @@ export class Checks {
     else this.#host.look(this.chosen.layers[0]);
   }
 
-  /** Checks a plan of a single model; false if there was nothing to check, or nobody wants to know. */
+  /** Checks a plan; false if that is done, or nobody wants to know. */
   async fetch(result: Result): Promise<boolean> {
     const limits = this.#limits;
     const of = { result, limits };
-    // A model alone: findings are in its frame, and limits are those of a part.
-    if (!(this.#isOpen || limits !== null) || this.isCurrent || result.report.plate !== undefined) return false;
+    if (!(this.#isOpen || limits !== null) || this.isCurrent) return false;
+    const { plate } = result.report;
     try {
-      const check = await this.#slicer.check(limits ?? {});
+      const check = plate === undefined ? await this.#slicer.check(limits ?? {}) : await this.#slicer.plate.check(plate.plate, limits ?? {});
       if (!this.#isNow(of)) return true;
       this.#keep(of, check, null);
       this.#host.checked(check);
@@ -131,15 +134,17 @@ export class Checks {
   /** Forgets everything: another model was opened. */
   forget(): void {
     this.last = this.#chosen = this.#error = this.#of = null;
+    this.models = [];
   }
 
   #isNow({ result, limits }: Subject): boolean {
     return result === this.#host.result && limits === this.#limits;
   }
 
-  #keep(of: Subject, check: Check | null, error: SlicerError | null): void {
+  #keep(of: Subject, check: Check | PlateCheck | null, error: SlicerError | null): void {
     this.#of = of;
     this.last = check;
+    this.models = check === null ? [] : checkedOf(check, of.result.report);
     this.#error = error;
     this.#chosen = null;
   }

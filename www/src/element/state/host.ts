@@ -1,6 +1,6 @@
 /** What a session is given: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
-import type { Check, Model, Slicer } from "../../api/index.js";
+import type { Check, Model, PlateCheck, Slicer } from "../../api/index.js";
 import type { Backend, Candidate, Price } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import type { Result } from "./result.js";
@@ -15,7 +15,7 @@ export interface Host {
   planned?(result: Result): void;
   failed?(error: SlicerError): void;
   /** A plan was checked for what will fail. */
-  checked?(check: Check): void;
+  checked?(check: Check | PlateCheck): void;
   /** A plan could not be checked; it stays. */
   unchecked?(error: SlicerError): void;
   cancelled?(): void;

@@ -67,6 +67,10 @@ export const findingsStyles = css`
     padding-top: 0.75rem;
     border-top: 1px solid var(--cusp-line);
   }
+  h4.model {
+    margin-top: 1rem;
+    font-size: 1rem;
+  }
   h4 {
     display: flex;
     flex-wrap: wrap;

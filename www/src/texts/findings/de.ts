@@ -5,7 +5,6 @@ import type { FindingsTexts } from "./index.js";
 export const findings = (format: Format): FindingsTexts => ({
   checking: "Die Schichten werden geprüft …",
   none: "Es wurde nichts gefunden, das misslingen würde.",
-  alone: "Geprüft wird ein einzelnes Exemplar eines Modells, keine Platte mit mehreren.",
   verdicts: { ok: "So druckbar", review: "Vor dem Druck einen Blick wert", reject: "Lässt sich so nicht drucken" },
   severities: { ignore: "zur Kenntnis", review: "einen Blick wert", reject: "misslingt" },
   kinds: {

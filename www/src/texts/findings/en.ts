@@ -5,7 +5,6 @@ import type { FindingsTexts } from "./index.js";
 export const findings = (format: Format): FindingsTexts => ({
   checking: "Checking the layers …",
   none: "Nothing was found that would fail.",
-  alone: "The checks look at a single copy of one model, not at a plate of several.",
   verdicts: { ok: "Can be printed like this", review: "Worth a look before it is printed", reject: "Will not print like this" },
   severities: { ignore: "for information", review: "worth a look", reject: "will fail" },
   kinds: {

@@ -5,7 +5,6 @@ import type { FindingsTexts } from "./index.js";
 export const findings = (format: Format): FindingsTexts => ({
   checking: "Comprobando las capas…",
   none: "No se ha encontrado nada que vaya a fallar.",
-  alone: "Se comprueba una sola copia de un modelo, no una placa con varios.",
   verdicts: { ok: "Se puede imprimir así", review: "Conviene mirarlo antes de imprimir", reject: "No se imprimirá así" },
   severities: { ignore: "informativo", review: "conviene mirarlo", reject: "fallará" },
   kinds: {

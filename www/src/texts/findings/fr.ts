@@ -5,7 +5,6 @@ import type { FindingsTexts } from "./index.js";
 export const findings = (format: Format): FindingsTexts => ({
   checking: "Contrôle des couches…",
   none: "Rien n’a été trouvé qui échouerait.",
-  alone: "Le contrôle porte sur un seul exemplaire d’un modèle, pas sur un plateau qui en porte plusieurs.",
   verdicts: { ok: "Imprimable ainsi", review: "À regarder avant d’imprimer", reject: "Ne s’imprimera pas ainsi" },
   severities: { ignore: "pour information", review: "à regarder", reject: "échouera" },
   kinds: {

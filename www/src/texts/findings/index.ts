@@ -27,8 +27,6 @@ export interface FindingsTexts {
   checking: string;
   /** Nothing was found. */
   none: string;
-  /** Several models have no checks. */
-  alone: string;
   verdicts: Readonly<Record<Printability["verdict"], string>>;
   severities: Readonly<Record<Severity, string>>;
   kinds: Readonly<Record<Code, string>>;

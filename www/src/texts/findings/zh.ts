@@ -5,7 +5,6 @@ import type { FindingsTexts } from "./index.js";
 export const findings = (format: Format): FindingsTexts => ({
   checking: "正在检查各层…",
   none: "没有发现会失败的地方。",
-  alone: "检查针对单个模型的单个副本，不针对放有多个模型的平台。",
   verdicts: { ok: "可以这样打印", review: "打印前值得看一看", reject: "这样无法打印" },
   severities: { ignore: "仅供参考", review: "值得一看", reject: "会失败" },
   kinds: {
