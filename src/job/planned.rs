@@ -10,8 +10,9 @@ use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
 use crate::ldi::LdiError;
 use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks, erased_mm2};
-use crate::plan::Plan;
+use crate::plan::tradeoff::TradeoffPoint;
 use crate::plan::uniform::UniformLayers;
+use crate::plan::{Plan, PlanError};
 use crate::progress::{Cancelled, Progress};
 use crate::warning::Warning;
 
@@ -90,6 +91,15 @@ impl Planned {
         let erased = planned.erased(&mut within).map_err(LdiError::from)?;
         planned.findings.warnings.extend(erased);
         Ok(planned)
+    }
+
+    /// The best plans of the same models for `points` tolerances: see [`Planning::tradeoff`].
+    ///
+    /// # Errors
+    /// [`PlanError`].
+    pub fn tradeoff(&self, points: usize) -> Result<Vec<TradeoffPoint>, PlanError> {
+        let parts = self.models.iter().map(PlannedModel::part).collect();
+        Planning::new(parts, &self.layering).tradeoff(points)
     }
 
     /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,

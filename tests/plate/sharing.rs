@@ -236,6 +236,25 @@ fn the_plan_does_not_depend_on_the_number_of_copies() {
 }
 
 #[test]
+fn copies_have_the_curve_of_one_and_several_models_a_slower_one() {
+    let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 5.0, 8));
+    let mut alone = load(&ball);
+    let curve = pollster::block_on(alone.tradeoff(&options(), 9, &mut quiet)).unwrap();
+    let mut copies = plate(&[&ball]);
+    plan(&mut copies, &job(options(), &[3])).unwrap();
+    assert_eq!(copies.tradeoff(0, 9).unwrap(), curve);
+    assert_eq!(copies.tradeoff(1, 9).unwrap_err().code(), "no-such-plate");
+    let mut both = plate(&[&ball, &cone]);
+    plan(&mut both, &job(options(), &[1, 1])).unwrap();
+    for point in both.tradeoff(0, 9).unwrap().points {
+        let mut limited = options();
+        limited.tolerance = Some(point.tolerance);
+        let report = plan(&mut both, &job(limited, &[1, 1])).unwrap();
+        assert_eq!(report.plates[0].layers, point.layers);
+    }
+}
+
+#[test]
 fn copies_are_bounded_and_agree_with_their_places() {
     let cube = solids::cube(3.0);
     let mut many = plate(&[&cube]);

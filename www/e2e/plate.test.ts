@@ -2,7 +2,7 @@
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { downloaded, drop, settled, state, words } from "./browser.js";
+import { downloaded, drop, openPanel, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
@@ -35,6 +35,11 @@ test("of files that are dropped together the models stand on one plate, and beco
   await settled(page);
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
   expect(await words(page)).toContain("each");
+  // The curve of quality is the plate's, and what will fail on each model is found.
+  await page.locator("cusp-quality").waitFor();
+  await openPanel(page, "Check");
+  expect(await page.locator("cusp-findings .verdict").innerText()).toBeTruthy();
+  await openPanel(page, "Slice");
   const file = await downloaded(page);
   expect(file.name).toBe("plate-1-cusp.goo");
   expect(await broken(page)).toEqual([]);

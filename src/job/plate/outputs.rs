@@ -5,11 +5,11 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::super::Report;
 use super::super::parts::Job;
 use super::super::planned::Planned;
 use super::super::print::write_print;
 use super::super::stage::{Stage, StageProgress, ms_since};
+use super::super::{Report, Tradeoff};
 use super::Plate;
 use crate::Error;
 use crate::archive::{Look, MaskSource, Standing};
@@ -82,6 +82,16 @@ impl Plate {
         }
         let (masks, cursors) = current.seen()?;
         Ok(masks.whole(cursors, layer))
+    }
+
+    /// The best plans of a plate for `points` tolerances, as [`Slicer::tradeoff`](crate::job::Slicer::tradeoff) has them of a model. Models
+    /// with a tolerance of their own are held to it in proportion.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Arrange`], [`Error::Plan`].
+    pub fn tradeoff(&mut self, plate: usize, points: usize) -> Result<Tradeoff, Error> {
+        let points = self.current(plate)?.planned.tradeoff(points)?;
+        Ok(Tradeoff { points })
     }
 
     /// Writes the print file of a plate in the format of its options. Returns the writer, and the report with the time that this

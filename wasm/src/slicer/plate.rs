@@ -146,6 +146,16 @@ impl Plate {
         self.plate.mask(plate, layer).map_err(throw)
     }
 
+    /// The best plans of a plate, from 0, for `points` tolerances.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no plan or no such plate.
+    #[wasm_bindgen(unchecked_return_type = "Tradeoff")]
+    pub fn tradeoff(&mut self, plate: usize, points: usize) -> Result<JsValue, JsValue> {
+        let found = self.plate.tradeoff(plate, points);
+        Ok(to_js(&found.map_err(throw)?))
+    }
+
     /// What will fail when a plate, from 0, is printed, by these limits.
     ///
     /// # Errors

@@ -19,6 +19,7 @@ export function absentSlicer(): Slicer {
     plan: reject,
     mask: reject,
     check: reject,
+    tradeoff: reject,
     export: reject,
     price: reject,
   };

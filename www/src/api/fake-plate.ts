@@ -44,6 +44,7 @@ export function fakePlate(work: (what: string) => Promise<void> = async () => un
         ...(options?.supports !== undefined && { supports: own.map((_, model) => Float32Array.of(model)) }),
       };
     },
+    tradeoffPlate: () => ({ points: [] }),
     inspectPlate: (plate) => ({ verdict: "ok", models: [{ model: plate, turn_deg: 0 } as ModelPrintability] }),
     plateMask: (plate, layer) => {
       void work(`mask ${layer} of plate ${plate}`);

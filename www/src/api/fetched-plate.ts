@@ -35,6 +35,7 @@ export function fetchedPlate(fetch: () => Promise<RunningPlate>): RunningPlate {
     problems: async (...given) => (await there()).problems(...given),
     plan: async (...given) => (await there()).plan(...given),
     mask: async (...given) => (await there()).mask(...given),
+    tradeoff: async (...given) => (await there()).tradeoff(...given),
     check: async (...given) => (await there()).check(...given),
     export: async (...given) => (await there()).export(...given),
     price: async (...given) => (await there()).price(...given),

@@ -23,7 +23,7 @@ import { fetchedPlate } from "./fetched-plate.js";
 import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
 import type { Ordered } from "./price.js";
-import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
+import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
 import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
@@ -178,9 +178,6 @@ export interface Setup {
    */
   assets?: Assets | (() => Assets);
 }
-
-/** The default number of points on a trade-off curve. */
-const CURVE_POINTS = 40;
 
 /** More helpers would wait for the worker that reads the masks of a print file. */
 const MOST_HELPERS = 3;

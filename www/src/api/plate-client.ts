@@ -8,7 +8,7 @@ import { Calls, shed, silent, type Compiled, type Life, type Watch, type WorkerH
 import type { ModelFile, Weights } from "./client.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type OrderedPlates } from "./price.js";
-import type { ArrangeError, Limits, MeshInfo, OnProgress, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, Prices, ProfiledPlates, ReadOptions } from "./wire.js";
+import type { ArrangeError, Limits, MeshInfo, OnProgress, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, Prices, ProfiledPlates, ReadOptions, Tradeoff } from "./wire.js";
 
 /** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
 export interface Loaded {
@@ -89,6 +89,14 @@ export class PlateClient {
     return this.#calls.run(watch, null, async (life) => {
       const of = await this.#restorePlan(life, silent);
       return { bits: await life.handle.remote.plateMask(plate, layer), of };
+    });
+  }
+
+  /** The best plans of a plate of the last good plan. */
+  tradeoff(plate: number, points: number, watch: Watch): Promise<Tradeoff> {
+    return this.#calls.run(watch, null, async (life) => {
+      await this.#restorePlan(life, silent);
+      return life.handle.remote.tradeoffPlate(plate, points);
     });
   }
 

@@ -16,9 +16,9 @@ import type { Weights } from "./client.js";
 import { checkWhole, SlicerError } from "./error.js";
 import { PlateClient, type Loaded } from "./plate-client.js";
 import type { OrderedPlates } from "./price.js";
-import { printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
+import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
-import type { ArrangeError, Arranging, Limits, MeshInfo, ModelOptions, Options, Placement, PlateOptions, PlatePrintability, Price, Prices, Profiled, ReadOptions, Report } from "./wire.js";
+import type { ArrangeError, Arranging, Limits, MeshInfo, ModelOptions, Options, Placement, PlateOptions, PlatePrintability, Price, Prices, Profiled, ReadOptions, Report, Tradeoff } from "./wire.js";
 
 /** A model of a plate. */
 export interface PlateModel extends Versioned {
@@ -89,6 +89,8 @@ export interface Plate {
   plan(options?: Options, call?: PlateCall): Promise<PlatesPlan>;
   /** The mask of a layer of a plate of the last plan, both counted from 0. */
   mask(plate: number, layer: number, call?: Watch): Promise<Mask>;
+  /** The best plans of a plate of the last plan, as `slicer.tradeoff()` has them of a model: 40 unless `points` says otherwise. */
+  tradeoff(plate: number, points?: number, call?: Watch): Promise<Tradeoff & Versioned>;
   /** What will fail when a plate of the last plan is printed, model by model, as `slicer.check()` says it of one. */
   check(plate: number, limits?: Limits, call?: Watch): Promise<PlateCheck>;
   /** The print file of a plate of the last plan, counted from 0. */
@@ -192,6 +194,10 @@ export function createPlate(spawn: () => WorkerHandle, compiled: Compiled): Runn
       const { bits, of } = await client.mask(plate, layer, call);
       const { width, height } = reportOf(of.report.plates, plate).mask;
       return { layer, width, height, bits };
+    },
+    async tradeoff(plate, points = CURVE_POINTS, call = {}) {
+      checkWhole("plate", plate);
+      return { schema: SCHEMA, ...(await client.tradeoff(plate, points, call)) };
     },
     async check(plate, limits = {}, call = {}) {
       checkWhole("plate", plate);

@@ -4,6 +4,9 @@ import type { Report, Warning } from "./wire.js";
 /** The version of the result format. It increases when a field is removed or changes its meaning, not when one is added. */
 export const SCHEMA = 2;
 
+/** The default number of points on a trade-off curve. */
+export const CURVE_POINTS = 40;
+
 export interface Versioned {
   /** See {@link SCHEMA}. */
   schema: typeof SCHEMA;

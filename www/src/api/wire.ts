@@ -196,6 +196,8 @@ export interface PlateWorker {
   plateProblems(options: PlateOptions): ArrangeError[];
   planPlate(options: PlateOptions, progress: OnProgress): Promise<ProfiledPlates>;
   plateMask(plate: number, layer: number): Uint8Array;
+  /** The best plans of a plate of the last plan, for so many tolerances. */
+  tradeoffPlate(plate: number, points: number): Tradeoff;
   /** What will fail when a plate of the last plan is printed. */
   inspectPlate(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
   archivePlate(plate: number, progress: OnProgress): Blob;

@@ -123,6 +123,7 @@ const plateApi: Pick<Remote, keyof PlateWorker> = {
     const bits = onPlate().mask(number, layer);
     return Comlink.transfer(bits, [bits.buffer]);
   },
+  tradeoffPlate: (number, points) => onPlate().tradeoff(number, points),
   inspectPlate: (number, limits, progress) => onPlate().inspect(number, limits, progress),
   archivePlate(number, progress) {
     const sink = new BlobSink();

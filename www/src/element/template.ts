@@ -150,7 +150,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
       ? html`<section class="card" part="quality" aria-label=${texts.quality.title}>
-          ${session.plate.planned === null ? qualityPanel(drawn, result) : html`<p class="quiet">${texts.plate.quality}</p>`}
+          ${qualityPanel(drawn, result)}
         </section>`
       : nothing}
     ${panels.has("layers")

@@ -206,7 +206,6 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
 
 /** Uniform layers have a thickness, and no quality to choose. */
 function quality(facts: Facts, result: Result): TemplateResult {
-  if (facts.session.plate.planned !== null) return html`<p class="quiet">${facts.language.texts.plate.quality}</p>`;
   if (result.report.planner === "uniform") return html`<p class="quiet">${facts.language.texts.settings.uniformHint}</p>`;
   return qualityPanel(facts, result);
 }

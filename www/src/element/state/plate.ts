@@ -364,9 +364,9 @@ export class Plate {
     return this.planned === null ? this.#slicer.price(prices, ordered) : this.#slicer.plate.price(prices, ordered);
   }
 
-  /** The curve of a model; a plate has none. */
+  /** The curve of a model, or of the plate shown. */
   async tradeoff(options?: Options, points?: number, watch?: Watch): Promise<Tradeoff & { schema: typeof SCHEMA }> {
-    if (this.planned !== null) return { schema: SCHEMA, points: [] };
+    if (this.planned !== null) return this.#slicer.plate.tradeoff(this.number, points, watch);
     return this.#slicer.tradeoff(options, points, watch);
   }
 

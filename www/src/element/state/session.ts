@@ -313,6 +313,7 @@ export class Session extends Models {
     if (result === null) return;
     this.#archive = null;
     this.#beside.mask = null;
+    this.#curve.forget();
     this.#show(plan, result.options, this.#weightsOf);
     void this.#beside.fetch();
   }

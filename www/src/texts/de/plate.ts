@@ -8,7 +8,6 @@ export const plate = (): PlateTexts => ({
     fewer: "Eine weniger",
     more: "Eine mehr",
     arrange: "Anordnen",
-    quality: "Die Kurve der Qualität gehört zu einem Modell. Eine Platte wird für die Toleranz der Einstellungen geplant.",
     title: "Modelle auf der Platte",
     remove: (name) => `${name} entfernen`,
     spacing: "Abstand (mm)",

@@ -8,8 +8,6 @@ export const plate = () => ({
     fewer: "One fewer",
     more: "One more",
     arrange: "Arrange",
-    /** Instead of the choice of quality. */
-    quality: "The curve of quality is of one model. A plate is planned for the tolerance in the settings.",
     title: "Models on the plate",
     remove: (name: string) => `Remove ${name}`,
     spacing: "Spacing (mm)",

@@ -8,7 +8,6 @@ export const plate = (): PlateTexts => ({
     fewer: "Una menos",
     more: "Una más",
     arrange: "Distribuir",
-    quality: "La curva de calidad es de un solo modelo. Una placa se planifica con la tolerancia de los ajustes.",
     title: "Modelos en la placa",
     remove: (name) => `Quitar ${name}`,
     spacing: "Separación (mm)",

@@ -8,7 +8,6 @@ export const plate = (): PlateTexts => ({
     fewer: "Une de moins",
     more: "Une de plus",
     arrange: "Disposer",
-    quality: "La courbe de qualité est celle d’un seul modèle. Un plateau est planifié pour la tolérance des réglages.",
     title: "Modèles sur le plateau",
     remove: (name) => `Retirer ${name}`,
     spacing: "Écart (mm)",

@@ -8,7 +8,6 @@ export const plate = (): PlateTexts => ({
     fewer: "减少一份",
     more: "增加一份",
     arrange: "排列",
-    quality: "质量曲线只针对单个模型。平台按设置中的公差规划。",
     title: "平台上的模型",
     remove: (name) => `移除 ${name}`,
     spacing: "间距（毫米）",
