@@ -2,6 +2,7 @@
 
 /** Every code that an answer can have, with its HTTP status. */
 export const STATUS = {
+  "bad-address": 400,
   "no-such-page": 404,
   "method-not-allowed": 405,
   "foreign-page": 403,

@@ -1,6 +1,8 @@
 /** What the server takes and refuses, without a browser and without the native program. */
 import { randomUUID } from "node:crypto";
+import { once } from "node:events";
 import { mkdir, open as openFile, readdir, readFile, readlink, rm, writeFile, type FileHandle } from "node:fs/promises";
+import { request as connect } from "node:http";
 import { join, relative } from "node:path";
 import { expect, test, vi } from "vitest";
 import { expectNoLeftovers, incoming, orders, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "../../../e2e/shop-open.js";
@@ -174,6 +176,16 @@ const wait = setInterval(() => {
   expect(await readFile(log, "utf8")).toBe("in out in out ");
   expect(await post(open)).toMatchObject({ status: 201 });
   await expectNoLeftovers(open);
+});
+
+test("an address that is none is refused, and no fault of the shop", async () => {
+  const open = await start("never called");
+  for (const path of ["//", "//[", "http://"]) {
+    const request = connect(open.address, { path }).end();
+    const [{ statusCode }] = (await once(request, "response")) as [{ statusCode?: number }];
+    expect(statusCode, path).toBe(400);
+  }
+  expect((await fetch(open.address)).status).toBe(200);
 });
 
 test("whoever announces more than all files together may have is not listened to", async () => {

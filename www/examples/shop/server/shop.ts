@@ -98,7 +98,9 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   };
 
   const answer = async (request: IncomingMessage, response: ServerResponse): Promise<void> => {
-    const { pathname } = new URL(request.url ?? "/", `http://${HOST}`);
+    const [address = "/", base] = [request.url, `http://${HOST}`];
+    if (!URL.canParse(address, base)) throw new Refusal("bad-address", "This is no address of a page.");
+    const { pathname } = new URL(address, base);
     if (pathname !== "/orders") return sendPage(pages.get(pathname), request, response);
     if (request.method !== "POST") throw new Refusal("method-not-allowed", "Orders are posted.");
     const from = request.headers["sec-fetch-site"];
