@@ -1,5 +1,5 @@
 /** Customers of the example shop, honest and dishonest, who send orders until each is taken or refused. */
-import { randomUUID } from "node:crypto";
+import { randomInt, randomUUID } from "node:crypto";
 import { setTimeout as wait } from "node:timers/promises";
 import { expect } from "vitest";
 import type { Good } from "./shop-goods.js";
@@ -22,7 +22,9 @@ function wanted(good: Good, refusal: string | null = null, changed: Sent["parts"
   const { plan, model, print } = good.files;
   const files = { plan: file(plan), model: file(model), print: file(print) };
   const parts = { copies: String(good.copies), price_cents: String(good.verified.price.total), ...files, ...changed };
-  return { key: randomUUID(), parts, good, refusal };
+  // Each from a network of its own, since the shop limits the orders of one.
+  const [a, b] = [0, 0].map(() => randomInt(0x10000).toString(16));
+  return { key: randomUUID(), headers: { "x-forwarded-for": `2001:db8:${a}:${b}::1` }, parts, good, refusal };
 }
 
 function file(content: Uint8Array | string): Blob {

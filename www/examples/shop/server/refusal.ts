@@ -16,6 +16,7 @@ export const STATUS = {
   "print-refused": 422,
   "not-printable": 422,
   "price-differs": 409,
+  "too-many-orders": 429,
   busy: 503,
   "took-too-long": 503,
   closing: 503,

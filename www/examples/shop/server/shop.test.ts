@@ -10,6 +10,7 @@ import { ELEMENT_POLICY } from "../../../e2e/static.js";
 import { languageOf } from "../../../src/texts/index.js";
 import { FIXED, LIMITS, pricesOf } from "../catalogue.js";
 import { time } from "../page/format.js";
+import { clientOf } from "./client.js";
 
 /** Stands in for the built page. */
 async function onePage(root: string): Promise<string> {
@@ -67,6 +68,18 @@ function post({ address }: OpenShop, { options, print, fields, key = randomUUID(
   const file = new Blob(["solid"], { type: "model/stl" });
   const price_cents = String(ONE_CENTS);
   return send(address, { key, parts: { copies: "1", price_cents, plan, model: file, print: print ?? file, ...fields }, ...sent });
+}
+
+const from = (client: string): NonNullable<Sent["headers"]> => ({ "x-forwarded-for": client });
+
+/** Begins an upload and does not go on, until the server ends it. Returns the status of its answer; null if there is none. */
+function slowly({ address }: OpenShop, client: string): Promise<number | null> {
+  const headers = { "content-type": "multipart/form-data; boundary=x", "content-length": 1000, "idempotency-key": randomUUID(), ...from(client) };
+  const request = connect(`${address}orders`, { method: "POST", headers });
+  request.write("--x\r\n");
+  return new Promise((resolve) => {
+    request.once("response", ({ statusCode }) => resolve(statusCode ?? null)).once("error", () => resolve(null));
+  });
 }
 
 test("every answer comes under the policy that the guide names", async () => {
@@ -154,7 +167,7 @@ test("a verification that takes too long is ended", async () => {
   await expectNoLeftovers(open);
 });
 
-test("one verification runs at a time, a few wait, and more are asked to come back", async () => {
+test("one verification runs at a time, a few wait, fewer of one client, and more are asked to come back", async () => {
   const scratch = await newFolder("scratch");
   const log = join(scratch, "turns.log");
   // Keeps its turn until the test opens the gate.
@@ -167,15 +180,45 @@ const wait = setInterval(() => {
   fs.appendFileSync(${JSON.stringify(log)}, "out ");
   ${HONEST}
 }, 10);`;
-  const open = await start(await program(script), { places: 2 });
-  const taken = [post(open), post(open)];
-  await expect.poll(async () => (await incoming(open)).length).toBe(2);
-  expect(await post(open)).toMatchObject({ status: 503, code: "busy" });
+  const open = await start(await program(script), { places: 2, places_per_client: 1 });
+  const send = (client: string): Promise<Answer> => post(open, { headers: from(client) });
+  const ofOne = [send("192.0.2.1"), send("192.0.2.1")];
+  expect(await Promise.race(ofOne)).toMatchObject({ status: 429, code: "too-many-orders" });
+  const ofOthers = [send("192.0.2.2"), send("192.0.2.3")];
+  expect(await Promise.race(ofOthers)).toMatchObject({ status: 503, code: "busy" });
   await writeFile(gate, "");
-  expect((await Promise.all(taken)).map(({ status }) => status)).toEqual([201, 201]);
+  const answers = await Promise.all([...ofOne, ...ofOthers]);
+  expect(answers.filter(({ status }) => status === 201)).toHaveLength(2);
   expect(await readFile(log, "utf8")).toBe("in out in out ");
-  expect(await post(open)).toMatchObject({ status: 201 });
+  expect(await send("192.0.2.1")).toMatchObject({ status: 201 });
   await expectNoLeftovers(open);
+});
+
+test("slow uploads cost nobody a place, and their client has few of them", async () => {
+  const open = await start(await program(HONEST), { places: 1, uploads_per_client: 2 });
+  const slow = "192.0.2.1";
+  for (let i = 0; i < 2; i++) void slowly(open, slow);
+  await expect.poll(async () => (await incoming(open)).length).toBe(2);
+  expect(await slowly(open, slow)).toBe(429);
+  expect(await post(open, { headers: from("192.0.2.2") })).toMatchObject({ status: 201 });
+});
+
+test("an upload that takes too long is ended, and its client may send another", async () => {
+  const open = await start(await program(HONEST), { uploads_per_client: 1, upload_ms: 300 });
+  expect(await slowly(open, "127.0.0.1")).toBe(408);
+  await expectNoLeftovers(open);
+  expect(await post(open)).toMatchObject({ status: 201 });
+});
+
+test("clients are known by the address that the web server appends, and by the network of IPv6", () => {
+  const client = (forwarded?: string, remoteAddress = "127.0.0.1"): string =>
+    clientOf({ headers: { "x-forwarded-for": forwarded }, socket: { remoteAddress } } as unknown as Parameters<typeof clientOf>[0]);
+  expect(client()).toBe("127.0.0.1");
+  expect(client("203.0.113.9, 192.0.2.1")).toBe("192.0.2.1");
+  expect(client("::ffff:192.0.2.1")).toBe("192.0.2.1");
+  for (const address of ["2001:db8::1", "2001:DB8:0:0:1:2:3:4", "2001:db8::5:6:7:8"]) expect(client(address), address).toBe("2001:db8:0:0");
+  expect(client("2001:db8:0:1::")).toBe("2001:db8:0:1");
+  expect(client("::1")).toBe("0:0:0:0");
 });
 
 test("an address that is none is refused, and no fault of the shop", async () => {
@@ -217,8 +260,8 @@ test("of two that are sent at the same time with one key one is taken, and both 
   const { cusp, count } = await counting();
   const open = await start(cusp);
   const key = randomUUID();
-  const answers = await Promise.all([1, 2, 3].map(() => post(open, { key })));
-  expect(answers.map(({ status }) => status)).toEqual([201, 201, 201]);
+  const answers = await Promise.all([post(open, { key }), post(open, { key })]);
+  expect(answers.map(({ status }) => status)).toEqual([201, 201]);
   expect(new Set(answers.map(({ id }) => id)).size).toBe(1);
   expect(await orders(open)).toEqual([answers[0]?.id]);
   expect(await count()).toBe(1);

@@ -3,8 +3,10 @@ import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
 import { join } from "node:path";
 import { LIMITS as PRINTABLE, MOST_BYTES, pricesOf, type PartName } from "../catalogue.js";
+import { clientOf } from "./client.js";
 import { readPages, type PageFile } from "./pages.js";
-import { wantedBy } from "./plan.js";
+import { Places } from "./places.js";
+import { wantedBy, type Wanted } from "./plan.js";
 import { Queue } from "./queue.js";
 import { Refusal, STATUS } from "./refusal.js";
 import { Store, type Order } from "./store.js";
@@ -42,15 +44,25 @@ export interface Setup extends Partial<Limits> {
 export interface Limits {
   /** The largest files that the shop takes, in bytes. */
   most_bytes: Readonly<Record<PartName, number>>;
-  /** Orders that may be under way at once; one of them is verified, the others wait. */
+  /** Uploaded orders that may be under way at once; one of them is verified, the others wait. */
   places: number;
+  places_per_client: number;
+  /** Uploads that a client may have under way at once, until they are answered. */
+  uploads_per_client: number;
   /** How long a verification may take, ms. */
   verify_ms: number;
   /** How long an upload may take, ms. */
   upload_ms: number;
 }
 
-const LIMITS: Limits = { most_bytes: MOST_BYTES, places: 8, verify_ms: 120_000, upload_ms: 300_000 };
+const LIMITS: Limits = {
+  most_bytes: MOST_BYTES,
+  places: 8,
+  places_per_client: 2,
+  uploads_per_client: 4,
+  verify_ms: 120_000,
+  upload_ms: 300_000,
+};
 
 export interface Shop {
   /** @param port 0 for any that is free. Returns the address. */
@@ -62,30 +74,33 @@ export interface Shop {
 export async function createShop({ folder, pages: built, cusp, ...given }: Setup): Promise<Shop> {
   const limits = { ...LIMITS, ...given };
   const [pages, store] = await Promise.all([readPages(built), Store.open(folder)]);
-  const queue = new Queue(limits.places);
+  const uploads = new Places(Infinity, limits.uploads_per_client);
+  const places = new Places(limits.places, limits.places_per_client);
+  const queue = new Queue();
   const closing = new AbortController();
   const verifier: Verifier = { cusp, limit_ms: limits.verify_ms };
 
-  /** Checks an uploaded order when its turn comes, and takes it. */
-  const take = async (folder: string, key: string, { copies, price_cents }: Form, signal: AbortSignal): Promise<Order> => {
-    const { printer, resin } = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
-    return queue.inTurn(async () => {
-      // Of two orders that arrive with one key at the same time, the second gets the result of the first.
-      const before = await store.find(key);
-      if (before !== null) return before;
-      const terms = { limits: PRINTABLE, prices: pricesOf(printer, resin), copies };
-      const verified = await verify(folder, terms, verifier, signal);
-      const { lines, total } = verified.price;
-      if (total !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
-      return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total, verified });
-    });
+  /** Checks an uploaded order, and takes it. */
+  const take = async (folder: string, key: string, wanted: Form & Wanted, signal: AbortSignal): Promise<Order> => {
+    // Of two orders that arrive with one key at the same time, the second gets the result of the first.
+    const before = await store.find(key);
+    if (before !== null) return before;
+    const { printer, resin, copies, price_cents } = wanted;
+    const terms = { limits: PRINTABLE, prices: pricesOf(printer, resin), copies };
+    const verified = await verify(folder, terms, verifier, signal);
+    const { lines, total } = verified.price;
+    if (total !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
+    return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total, verified });
   };
 
   const order = async (request: IncomingMessage, key: string, signal: AbortSignal): Promise<Order> =>
     (await store.find(key)) ??
-    queue.admit(() =>
-      store.withFolder(async (folder) => take(folder, key, await receive(request, folder, limits.most_bytes, signal), signal)),
-    );
+    store.withFolder(async (folder) => {
+      const form = await receive(request, folder, limits.most_bytes, signal);
+      const wanted = wantedBy(await readFile(join(folder, FILES.plan), "utf8"));
+      const leave = places.take(clientOf(request));
+      return queue.inTurn(() => take(folder, key, { ...form, ...wanted }, signal)).finally(leave);
+    });
 
   /**
    * Waits until the client can read an answer: a browser reads none before its upload is complete, so the rest is received
@@ -98,11 +113,13 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   };
 
   const answer = async (request: IncomingMessage, response: ServerResponse): Promise<void> => {
-    const [address = "/", base] = [request.url, `http://${HOST}`];
+    const { method, url: address = "/" } = request;
+    if (method !== "GET" && method !== "HEAD") response.once("close", uploads.take(clientOf(request)));
+    const base = `http://${HOST}`;
     if (!URL.canParse(address, base)) throw new Refusal("bad-address", "This is no address of a page.");
     const { pathname } = new URL(address, base);
     if (pathname !== "/orders") return sendPage(pages.get(pathname), request, response);
-    if (request.method !== "POST") throw new Refusal("method-not-allowed", "Orders are posted.");
+    if (method !== "POST") throw new Refusal("method-not-allowed", "Orders are posted.");
     const from = request.headers["sec-fetch-site"];
     if (from !== undefined && from !== "same-origin") throw new Refusal("foreign-page", "Orders come from the shop's own page.");
     const gone = new AbortController();
@@ -112,18 +129,21 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   };
 
   const refuse = async (error: unknown, request: IncomingMessage, response: ServerResponse): Promise<void> => {
-    if (!(await isHeard(request, response))) return;
+    // To receive what is over the limit would be no limit.
+    if (error instanceof Refusal && error.code === "too-many-orders") response.setHeader("connection", "close");
+    else if (!(await isHeard(request, response))) return;
     const { code, message } = closing.signal.aborted ? CLOSING : asRefusal(error);
     sendJson(response, STATUS[code], { code, message });
   };
 
-  const server = createServer((request, response) => {
+  // Node looks for late uploads at intervals.
+  const late = { requestTimeout: limits.upload_ms, connectionsCheckingInterval: limits.upload_ms / 100 };
+  const server = createServer(late, (request, response) => {
     answer(request, response).catch((error: unknown) => {
       if (response.headersSent || response.destroyed) response.destroy();
       else void refuse(error, request, response);
     });
   });
-  server.requestTimeout = limits.upload_ms;
 
   return {
     listen: (port) => listen(server, port),
