@@ -8,6 +8,7 @@ import { join } from "node:path";
 import { setTimeout as wait } from "node:timers/promises";
 import { afterEach, beforeEach, expect, test } from "vitest";
 import { findCusp } from "../examples/shop/cusp.js";
+import { FOLDERS } from "../examples/shop/server/store.js";
 import { FILES } from "../examples/shop/server/upload.js";
 import { freePort } from "./serve.js";
 import { Customers } from "./shop-customers.js";
@@ -117,8 +118,9 @@ test("orders of ten customers survive kills of the shop and of what it runs", as
   const taken = [...customers.taken.values()].map(({ order }) => order.id ?? "");
   expect((await orders({ folder })).sort()).toEqual(taken.sort());
   for (const { good, order } of customers.taken.values()) {
-    const read = (name: string): Promise<Buffer> => readFile(join(folder, "orders", order.id ?? "", name));
-    const { status: _status, ...kept } = order;
+    const { status: _status, state = "accepted", ...kept } = order;
+    const read = (name: string): Promise<Buffer> => readFile(join(folder, FOLDERS[state], order.id ?? "", name));
+    expect(state).toBe(good.verified.printability.verdict === "review" ? "review" : "accepted");
     expect(JSON.parse((await read("order.json")).toString())).toEqual(kept);
     expect(order.verified).toEqual(good.verified);
     for (const [part, name] of Object.entries(FILES)) {

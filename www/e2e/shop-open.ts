@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { PRINTERS, RESINS, type ShopPrinter, type ShopResin } from "../examples/shop/catalogue.js";
 import { createShop, type Limits, type Shop } from "../examples/shop/server/shop.js";
-import type { Order } from "../examples/shop/server/store.js";
+import { FOLDERS, type Order, type State } from "../examples/shop/server/store.js";
 import { builtShop } from "./built.js";
 
 /** The resin and the printer of test orders. */
@@ -88,9 +88,13 @@ export async function send(address: string, { key, parts, headers = {}, signal }
   return { status: response.status, ...((await response.json()) as object) };
 }
 
-/** Numbers of the orders that were taken. */
-export function orders({ folder }: Pick<OpenShop, "folder">): Promise<string[]> {
-  return readdir(join(folder, "orders"));
+/** Numbers of the orders that were taken, and of those that wait for a person. */
+export async function orders(open: Pick<OpenShop, "folder">): Promise<string[]> {
+  return [...(await ordersIn(open, "accepted")), ...(await ordersIn(open, "review"))];
+}
+
+export function ordersIn({ folder }: Pick<OpenShop, "folder">, state: State): Promise<string[]> {
+  return readdir(join(folder, FOLDERS[state]));
 }
 
 /** Uploads that are neither taken nor refused yet. */

@@ -23,6 +23,12 @@ const cancel = find<HTMLButtonElement>("#cancel");
 const standing = find("#standing");
 const problem = find("#problem");
 
+/** What a customer is told of an order. */
+const STATES: Readonly<Record<Placed["state"], string>> = {
+  accepted: "taken",
+  review: "waiting for a person to look at it",
+};
+
 /** What a customer would buy by pressing the button now. */
 interface Offer {
   result: Result;
@@ -106,9 +112,9 @@ async function order(): Promise<void> {
     if (fault !== null) return say("", fault);
     signal.throwIfAborted();
     say("Sending and checking your order…");
-    const answer = await placeOrder({ key: keyOf(now), copies: now.copies, price_cents: now.price.total, parts }, signal);
+    const answer = await placeOrder({ key: keyOf(now), copies: now.copies, price_cents: now.price.total, model_name: model.name, parts }, signal);
     unanswered = null;
-    say(`Checked and taken: order ${shortly(answer)}.`);
+    say(`Checked and ${STATES[answer.state]}: order ${shortly(answer)}.`);
     show(answer, model.name);
   } catch (error) {
     if (signal.aborted || isAbort(error)) say("Cancelled. Nothing was ordered.");
@@ -146,7 +152,7 @@ function show(answer: Placed, name: string): void {
   };
   words("span", `${answer.copies} × ${name}`);
   words("span", money(answer.price_cents));
-  words("span", `Order ${shortly(answer)}`, "quiet");
+  words("span", `Order ${shortly(answer)}, ${STATES[answer.state]}`, "quiet");
   const lines = document.createElement("dl");
   lines.className = "lines";
   fillLines(lines, answer.lines);

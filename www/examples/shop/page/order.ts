@@ -4,6 +4,7 @@ import type { PartName } from "../catalogue.js";
 
 export interface Placed {
   id: string;
+  state: "accepted" | "review";
   copies: number;
   lines: Price["lines"];
   price_cents: number;
@@ -14,6 +15,7 @@ export interface Ordered {
   key: string;
   copies: number;
   price_cents: number;
+  model_name: string;
   parts: Readonly<Record<PartName, Blob>>;
 }
 
@@ -28,11 +30,13 @@ export class OrderError extends Error {
   }
 }
 
-export async function placeOrder({ key, copies, price_cents, parts }: Ordered, signal: AbortSignal): Promise<Placed> {
+export async function placeOrder({ key, copies, price_cents, model_name, parts }: Ordered, signal: AbortSignal): Promise<Placed> {
   const form = new FormData();
   form.set("copies", String(copies));
   form.set("price_cents", String(price_cents));
-  for (const [name, blob] of Object.entries(parts)) form.set(name, new Blob([blob], { type: "application/octet-stream" }));
+  for (const [name, blob] of Object.entries(parts)) {
+    form.set(name, new Blob([blob], { type: "application/octet-stream" }), name === "model" ? model_name : name);
+  }
   try {
     const response = await fetch("orders", { method: "POST", body: form, headers: { "idempotency-key": key }, signal });
     if (response.ok) return (await response.json()) as Placed;

@@ -5,11 +5,12 @@ import { mkdir, open as openFile, readdir, readFile, readlink, rm, writeFile, ty
 import { request as connect } from "node:http";
 import { join, relative } from "node:path";
 import { expect, test, vi } from "vitest";
-import { expectNoLeftovers, incoming, orders, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "../../../e2e/shop-open.js";
+import { expectNoLeftovers, incoming, orders, ordersIn, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "../../../e2e/shop-open.js";
 import { ELEMENT_POLICY } from "../../../e2e/static.js";
 import { languageOf } from "../../../src/texts/index.js";
 import { FIXED, LIMITS, pricesOf } from "../catalogue.js";
 import { time } from "../page/format.js";
+import { main as review } from "../review.js";
 import { clientOf } from "./client.js";
 
 /** Stands in for the built page. */
@@ -38,7 +39,7 @@ const answering = (verdict: string): string => `{
     { kind: "resin", amount: prices.resin_per_ml * 10 * copies },
   ];
   const price = { currency: "EUR", digits: 2, copies, finish: null, lines, total: lines.reduce((sum, { amount }) => sum + amount, 0) };
-  const findings = "${verdict}" === "ok" ? [] : [{ code: "trap", severity: "reject" }];
+  const findings = "${verdict}" === "ok" ? [] : [{ code: "trap", severity: "${verdict}" }];
   const printability = { verdict: "${verdict}", findings, counts: findings.map(({ code }) => ({ code, found: 1 })) };
   console.log(JSON.stringify({ ...${JSON.stringify(VERDICT)}, price, printability, limits: read("--limits") }));
   if ("${verdict}" === "reject") process.exitCode = 1;
@@ -364,6 +365,25 @@ test("what is not printable is refused, whatever it costs", async () => {
   expect(await post(open)).toMatchObject({ status: 422, code: "not-printable", message: expect.stringContaining("trap") });
   expect(await orders(open)).toEqual([]);
   await expectNoLeftovers(open);
+});
+
+test("what needs a look waits for a person, the customer is told, and the shop sees what it is", async () => {
+  const open = await start(await program(answering("review")));
+  const key = randomUUID();
+  const model = new File(["solid"], "C:\\mine\\Königin\u202e\u001b[31m.stl", { type: "model/stl" });
+  const answer = await post(open, { key, fields: { model } });
+  expect(answer).toMatchObject({ status: 201, state: "review", model_name: "Königin[31m.stl" });
+  expect([await ordersIn(open, "review"), await ordersIn(open, "accepted")]).toEqual([[answer.id], []]);
+  expect(await post(open, { key })).toEqual(answer);
+  const said = vi.spyOn(console, "log").mockImplementation(() => undefined);
+  await review([open.folder]);
+  expect(said.mock.calls).toEqual([[`${answer.id}  ${answer.placed_at}  1 × Königin[31m.stl  ${printer.name}, ${resin.name}  €11.50  trap`]]);
+  said.mockClear();
+  await review([open.folder, answer.id ?? ""]);
+  expect(said).not.toHaveBeenCalled();
+  said.mockRestore();
+  expect([await ordersIn(open, "review"), await ordersIn(open, "accepted")]).toEqual([[], [answer.id]]);
+  expect(await post(open, { key })).toEqual({ ...answer, state: "accepted" });
 });
 
 test("the page writes times as the element does", () => {

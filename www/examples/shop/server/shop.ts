@@ -85,12 +85,13 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     // Of two orders that arrive with one key at the same time, the second gets the result of the first.
     const before = await store.find(key);
     if (before !== null) return before;
-    const { printer, resin, copies, price_cents } = wanted;
+    const { model_name, printer, resin, copies, price_cents } = wanted;
     const terms = { limits: PRINTABLE, prices: pricesOf(printer, resin), copies };
     const verified = await verify(folder, terms, verifier, signal);
     const { lines, total } = verified.price;
     if (total !== price_cents) throw new Refusal("price-differs", "The price is another by now. Please load this page anew.");
-    return store.keep(folder, key, { printer: printer.name, resin: resin.name, copies, lines, price_cents: total, verified });
+    const state = verified.printability.verdict === "review" ? "review" : "accepted";
+    return store.keep(folder, key, { state, model_name, printer: printer.name, resin: resin.name, copies, lines, price_cents: total, verified });
   };
 
   const order = async (request: IncomingMessage, key: string, signal: AbortSignal): Promise<Order> =>

@@ -5,11 +5,20 @@ import { join, resolve } from "node:path";
 import type { Price } from "cusp-slicer";
 import type { Verified } from "./verify.js";
 
-/** The content of an order's `order.json`, which lies beside its files. */
+/** To be printed, or to be looked at by a person first. */
+export type State = "accepted" | "review";
+
+/** The folder of the orders in a state. */
+export const FOLDERS: Readonly<Record<State, string>> = { review: "review", accepted: "orders" };
+
+/** The content of an order's `order.json`, which lies beside its files, and its state, which is where they lie. */
 export interface Order {
   id: string;
+  state: State;
   /** ISO 8601. */
   placed_at: string;
+  /** The customer's name of the model's file, fit to be shown; empty if there was none. */
+  model_name: string;
   printer: string;
   resin: string;
   copies: number;
@@ -21,13 +30,13 @@ export interface Order {
 }
 
 export class Store {
+  readonly #root: string;
   readonly #incoming: string;
-  readonly #orders: string;
 
   private constructor(folder: string) {
-    // On one file system, so that an accepted order is moved and not copied.
+    this.#root = folder;
+    // On one file system, so that an order is moved and not copied.
     this.#incoming = join(folder, "incoming");
-    this.#orders = join(folder, "orders");
   }
 
   /** Removes the remains of interrupted uploads. */
@@ -35,7 +44,7 @@ export class Store {
     const store = new Store(resolve(folder));
     await rm(store.#incoming, { recursive: true, force: true });
     await mkdir(store.#incoming, { recursive: true });
-    await mkdir(store.#orders, { recursive: true });
+    for (const name of Object.values(FOLDERS)) await mkdir(join(store.#root, name), { recursive: true });
     return store;
   }
 
@@ -51,25 +60,30 @@ export class Store {
 
   /** The order that was taken for a key; null if none was. */
   async find(key: string): Promise<Order | null> {
-    try {
-      return JSON.parse(await readFile(join(this.#orders, idOf(key), "order.json"), "utf8")) as Order;
-    } catch (error) {
-      if ((error as NodeJS.ErrnoException).code === "ENOENT") return null;
-      throw error;
+    // In this order: one that is accepted between two looks is seen by the second.
+    for (const state of ["review", "accepted"] as const) {
+      try {
+        const kept = await readFile(join(this.#root, FOLDERS[state], idOf(key), "order.json"), "utf8");
+        return { ...(JSON.parse(kept) as Omit<Order, "state">), state };
+      } catch (error) {
+        if ((error as NodeJS.ErrnoException).code !== "ENOENT") throw error;
+      }
     }
+    return null;
   }
 
   /** Turns a folder with its files into an order. A key has at most one order: there must be none yet. */
-  async keep(folder: string, key: string, order: Omit<Order, "id" | "placed_at">): Promise<Order> {
-    const placed: Order = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
+  async keep(folder: string, key: string, { state, ...order }: Omit<Order, "id" | "placed_at">): Promise<Order> {
+    const placed = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
     // On the disk before it is an order, and an order before the customer is told: no power failure takes it back.
     for (const name of await readdir(folder)) await sync(join(folder, name), "r+");
     await sync(folder);
     // This fails if there already is an order, since its folder is not empty.
-    await rename(folder, join(this.#orders, placed.id));
-    await sync(this.#orders);
-    return placed;
+    const kept = join(this.#root, FOLDERS[state]);
+    await rename(folder, join(kept, placed.id));
+    await sync(kept);
+    return { ...placed, state };
   }
 }
 

@@ -17,6 +17,8 @@ export interface Form {
   copies: number;
   /** The price that the customer saw and agreed to. */
   price_cents: number;
+  /** What the customer calls the model's file, fit to be shown. */
+  model_name: string;
 }
 
 /** Room for the two numbers and the boundaries between the parts. */
@@ -33,6 +35,7 @@ export async function receive(
   if (Number(request.headers["content-length"] ?? 0) > whole) throw tooLarge(whole);
   const fields = new Map<string, string>();
   const files = new Map<PartName, Promise<void>>();
+  let model_name = "";
   const streams: Readable[] = [];
   const form = parser(request, Math.max(...PARTS.map((name) => most[name])));
   form.on("field", (name, value) => void fields.set(name, value));
@@ -40,12 +43,13 @@ export async function receive(
     // Not a pipeline: it would close the connection at the first fault, and the client would not learn of it.
     await new Promise<void>((resolve, reject) => {
       const tooMany = (): void => reject(new Refusal("bad-order", "There is more in the order than belongs there."));
-      form.on("file", (name, stream) => {
+      form.on("file", (name, stream, filename) => {
         const part = PARTS.find((part) => part === name);
         if (part === undefined || files.has(part)) {
           stream.resume();
           return tooMany();
         }
+        if (part === "model") model_name = shownName(filename);
         const written = write(stream, join(folder, FILES[part]), part, most[part], signal);
         written.catch(reject);
         files.set(part, written);
@@ -71,6 +75,7 @@ export async function receive(
   return {
     copies: wholeNumber(fields.get("copies"), 1, MOST_COPIES, "number of copies"),
     price_cents: wholeNumber(fields.get("price_cents"), 0, Number.MAX_SAFE_INTEGER, "price"),
+    model_name,
   };
 }
 
@@ -102,6 +107,13 @@ function wholeNumber(text: string | undefined, least: number, most: number, name
   const value = /^\d{1,15}$/.test(text ?? "") ? Number(text) : Number.NaN;
   if (value >= least && value <= most) return value;
   throw new Refusal("bad-order", `The ${name} is no whole number from ${least} to ${most}.`);
+}
+
+const MOST_NAME_CHARACTERS = 100;
+
+/** The name of a file for people, who may see it in a terminal: without characters that act, turn a line around or cannot be seen. */
+function shownName(name = ""): string {
+  return name.slice(0, MOST_NAME_CHARACTERS).replaceAll(/[\p{C}\p{Zl}\p{Zp}]/gu, "").trim();
 }
 
 function tooLarge(bytes: number, part?: PartName): Refusal {
