@@ -1,5 +1,6 @@
 /** A real headless Chromium, and the actions of a user on the page. */
 import { readFile } from "node:fs/promises";
+import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { program } from "./program.js";
@@ -37,7 +38,8 @@ function executable(): string {
 
 /** @param flags for the browser, in addition to those that all tests need */
 export function launch(flags: readonly string[] = [NO_GPU]): Promise<Browser> {
-  return chromium.launch({ executablePath: executable(), headless: true, args: [...FLAGS, ...flags] });
+  const env = { ...process.env, CUSP_CHROMIUM: executable() };
+  return chromium.launch({ executablePath: fileURLToPath(new URL("chromium.sh", import.meta.url)), env, args: [...FLAGS, ...flags] });
 }
 
 export interface Opened {
