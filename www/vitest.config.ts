@@ -6,6 +6,8 @@ const browsers = {
   globalSetup: "e2e/serve.ts",
   // Two browsers at a time: one leaves a quarter of two cores idle, since each test waits for the page and the page for it.
   maxWorkers: 2,
+  // One browser serves all files of a worker: a tab that has compiled the page opens it in half the time.
+  isolate: false,
   // Two cores are shared with browsers that draw in software: now and then one misses a moment that it is to be seen in.
   retry: 2,
   expect: { poll: { timeout: 20_000 } },

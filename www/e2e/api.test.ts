@@ -1,14 +1,13 @@
 /** The headless slicer and its plate in a real browser, from the package as it is published. */
 import { unzipSync } from "fflate";
-import type { Browser, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type * as Api from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
-import { launch } from "./browser.js";
 import { serveApi } from "./packed.js";
 import type { Served } from "./serve.js";
 import { prism, sphere } from "./solids.js";
-import { Tabs } from "./tabs.js";
+import { tabs } from "./tabs.js";
 
 declare global {
   interface Window {
@@ -23,30 +22,25 @@ const goblet = binaryStl(exampleTriangles());
 const heavy = sphere(10, 700).bytes;
 
 let served: Served;
-let browser: Browser;
 let page: Page;
-const tabs = new Tabs();
+const own = tabs();
 const complaints: string[] = [];
 
 beforeAll(async () => {
   served = await serveApi({ "ball.stl": ball, "small.stl": sphere(5, 48).bytes, "block.stl": block, "heavy.stl": heavy, "goblet.stl": goblet, "bad.stl": "no" });
-  browser = await launch();
 }, 120_000);
 
-afterAll(async () => {
-  await browser.close();
-  await served.close();
-});
+afterAll(() => served.close());
 
 beforeEach(async () => {
-  page = await tabs.take(browser, {});
+  page = await own.take({});
   page.on("pageerror", (error) => complaints.push(error.message));
   await page.goto(served.address);
   await page.waitForFunction(() => "api" in window);
 });
 
 afterEach(async ({ task }) => {
-  await tabs.giveBack(task.result?.state === "fail");
+  await own.giveBack(task.result?.state === "fail");
   expect(complaints.splice(0)).toEqual([]);
 });
 

@@ -3,7 +3,7 @@ import { expect, test } from "vitest";
 import { drop, openPanel, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
-import { said, watchUsage, type Usage } from "./usage.js";
+import { said, watchContexts, watchUsage, type Usage } from "./usage.js";
 
 const MODELS = process.env["ENDURANCE"] === undefined ? 10 : 500;
 /** After this many models, all that is made once exists: compiled code, workers, the view. */
@@ -27,7 +27,7 @@ const LISTENER_SLACK = 100;
 const start = pages(SOFTWARE_GL);
 
 test("models in a row leave the memory where it was", async () => {
-  const page = await start("", { viewport: { width: 1280, height: 400 } }, true);
+  const page = await start("", { viewport: { width: 1280, height: 400 }, before: watchContexts });
   const usage = await watchUsage(page);
   const used: Usage[] = [];
   for (let i = 1; i <= MODELS; i++) {

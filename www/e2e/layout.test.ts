@@ -81,7 +81,7 @@ function cut(page: Page): Promise<string[]> {
 }
 
 test.each(LANGUAGES)("no text is cut, sticks out or lies on another, on a desktop and on the narrowest phone: %s", async (locale) => {
-  const page = await start(`?rays=512&locale=${locale}&printer=photon-mono-m5s`, { viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" }, true);
+  const page = await start(`?rays=512&locale=${locale}&printer=photon-mono-m5s`, { viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
   // Names as long as they come.
   await drop(page, { name: `${"a-very-long-name-".repeat(8)}.txt`, bytes: new Uint8Array(1) });
   await state(page, "error");
@@ -173,7 +173,7 @@ test("at 1280 × 800 nothing scrolls from the drop to the download, and nothing 
 });
 
 test("the view grows with the window", async () => {
-  const page = await start("", DESKTOP, true);
+  const page = await start("", DESKTOP);
   await drop(page, ball);
   await state(page, "done");
   const area = async (): Promise<number> => {
@@ -306,7 +306,7 @@ test("tabs are chosen with the arrow keys", async () => {
 });
 
 test("an accessibility checker finds nothing amiss in any state, nor too little contrast in light or dark", async () => {
-  const page = await start("?rays=512", { ...DESKTOP, reducedMotion: "reduce" }, true);
+  const page = await start("?rays=512", { ...DESKTOP, reducedMotion: "reduce" });
   const checked = async (what: string): Promise<void> => {
     await page.emulateMedia({ colorScheme: "dark" });
     expect(await broken(page, ["color-contrast"]), `${what}, dark`).toEqual([]);
@@ -352,7 +352,7 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
 });
 
 test("forced colours reach the chart, and what is chosen or wrong is told without colour", async () => {
-  const page = await start("?rays=512", {}, true);
+  const page = await start("?rays=512", {});
   await drop(page, ball);
   await state(page, "done");
   /** Pixels of the canvas in a system colour. */

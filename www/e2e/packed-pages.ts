@@ -1,10 +1,9 @@
-/** Third-party pages with the package for a test file: one browser and one server for all, and no unnoticed errors at the end. */
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+/** Third-party pages with the package for a test file: one server for all, and no unnoticed errors at the end. */
+import type { BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { launch } from "./browser.js";
 import { servePacked } from "./packed.js";
 import type { Served } from "./serve.js";
-import { Tabs } from "./tabs.js";
+import { tabs } from "./tabs.js";
 
 export interface PackedPages {
   /** Opens the page with this in its body, once it says by `data-ready` that it is. */
@@ -16,27 +15,22 @@ export interface PackedPages {
 /** Call once at the top of a test file. `files` are those of {@link servePacked}. */
 export function packedPages(files: Readonly<Record<string, string | Uint8Array>>, locale: string, flags?: readonly string[]): PackedPages {
   let served: Served;
-  let browser: Browser;
-  const tabs = new Tabs();
+  const own = tabs(flags);
   const complaints: string[] = [];
 
   beforeAll(async () => {
     served = await servePacked(files);
-    browser = await launch(flags);
   }, 120_000);
 
-  afterAll(async () => {
-    await browser.close();
-    await served.close();
-  });
+  afterAll(() => served.close());
 
   afterEach(async ({ task }) => {
-    await tabs.giveBack(task.result?.state === "fail");
+    await own.giveBack(task.result?.state === "fail");
     expect(complaints.splice(0)).toEqual([]);
   });
 
   const start = async (body: string, options: BrowserContextOptions = {}): Promise<Page> => {
-    const page = await tabs.take(browser, { locale, ...options });
+    const page = await own.take({ locale, ...options });
     page.on("pageerror", (error) => complaints.push(error.message));
     page.on("console", (message) => {
       if (message.type() === "error") complaints.push(message.text());

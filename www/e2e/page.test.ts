@@ -79,7 +79,7 @@ function litPixels({ data, depth }: ReturnType<typeof decode>): number {
 
 test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: the plan is the same", async () => {
   const { bytes } = sphere(10, 48);
-  const page = await start("?rays=512", {}, true);
+  const page = await start("?rays=512", {});
   const plans: number[] = [];
   const opened = async (name: string): Promise<void> => {
     await expect.poll(() => page.locator(".model-name").allInnerTexts()).toEqual([name]);

@@ -269,12 +269,10 @@ test("numbers are typed with units, in the language's decimals; the field is tid
 
 test("the page speaks every language, by choice or because the browser does, whatever the browser's language is called", async () => {
   // WebKit's is "C" if LANG is, which is no tag of a language.
-  const page = await start("?rays=512", {}, true);
-  await page.addInitScript(() => {
+  const before = (): void => {
     Object.defineProperties(Navigator.prototype, { language: { get: () => "C" }, languages: { get: () => ["C"] } });
-  });
-  await page.reload();
-  await state(page, "empty");
+  };
+  const page = await start("?rays=512", { before });
   await drop(page, ballFile);
   await state(page, "done");
   await page.waitForSelector("cusp-chart .plot canvas");

@@ -3,50 +3,77 @@
  * compiled the page's scripts and its WebAssembly already: there a page opens and plans in half the time.
  */
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import { launch } from "./browser.js";
 
 /** What tests listen to on a page. */
-const HEARD = ["request", "pageerror", "console", "download"] as const;
+const HEARD = ["request", "response", "pageerror", "console", "download"] as const;
+
+export interface TabOptions extends BrowserContextOptions {
+  /** Runs in the page before anything else. */
+  before?: () => void;
+}
 
 export class Tabs {
+  readonly #launch: () => Promise<Browser>;
+  #browser: Promise<Browser> | null = null;
   readonly #idle = new Map<string, Page[]>();
-  readonly #taken: { page: Page; options: string | null }[] = [];
+  readonly #taken: { page: Page; key: string; scripts: { dispose(): Promise<void> }[] }[] = [];
 
-  /**
-   * An empty tab, for one test.
-   *
-   * @param isOwn for a test that leaves traces in the tab itself, such as scripts for every page or an emulated theme:
-   * no other test had the tab, and none will
-   */
-  async take(browser: Browser, options: BrowserContextOptions, isOwn = false): Promise<Page> {
-    const key = isOwn ? null : JSON.stringify(options);
-    const idle = key === null ? undefined : this.#idle.get(key)?.pop();
-    const page = idle ?? (await (await browser.newContext(options)).newPage());
-    this.#taken.push({ page, options: key });
+  constructor(launch: () => Promise<Browser>) {
+    this.#launch = launch;
+  }
+
+  /** An empty tab, for one test. */
+  async take({ before, viewport, colorScheme = "light", reducedMotion = "no-preference", ...options }: TabOptions): Promise<Page> {
+    const key = JSON.stringify(options);
+    const page = this.#idle.get(key)?.pop() ?? (await this.#open(options));
+    const scripts = before === undefined ? [] : [await page.addInitScript(before)];
+    this.#taken.push({ page, key, scripts });
+    if (viewport) await page.setViewportSize(viewport);
+    await page.emulateMedia({ colorScheme, forcedColors: "none", reducedMotion });
     return page;
   }
 
   /** After each test; after a failed one its tabs are closed, since nobody knows what it left there. */
   async giveBack(hasFailed: boolean): Promise<void> {
     await Promise.all(
-      this.#taken.splice(0).map(async ({ page, options }) => {
-        if (hasFailed || options === null) return page.context().close();
+      this.#taken.splice(0).map(async ({ page, key, scripts }) => {
+        if (hasFailed) return page.context().close();
+        await Promise.all(scripts.map((script) => script.dispose()));
         await empty(page);
-        this.#idle.set(options, [...(this.#idle.get(options) ?? []), page]);
+        this.#idle.set(key, [...(this.#idle.get(key) ?? []), page]);
       }),
     );
   }
+
+  async #open(options: BrowserContextOptions): Promise<Page> {
+    const browser = await (this.#browser ??= this.#launch());
+    return (await browser.newContext(options)).newPage();
+  }
+}
+
+const all = new Map<string, Tabs>();
+
+/** The tabs of all test files of this process, whose browser ends with it. */
+export function tabs(flags?: readonly string[]): Tabs {
+  const key = String(flags);
+  const those = all.get(key) ?? new Tabs(() => launch(flags));
+  all.set(key, those);
+  return those;
 }
 
 /** Ends the page in a tab, with its workers and all that it stored. */
 async function empty(page: Page): Promise<void> {
+  for (const other of page.context().pages()) if (other !== page) await other.close();
   for (const event of HEARD) page.removeAllListeners(event);
   await page.unrouteAll({ behavior: "ignoreErrors" });
-  await page.evaluate(() => {
-    localStorage.clear();
-    sessionStorage.clear();
-  });
-  await page.context().clearCookies();
+  await page.evaluate(() => sessionStorage.clear());
+  const { origin } = new URL(page.url());
   await page.goto("about:blank");
+  const devtools = await page.context().newCDPSession(page);
+  await devtools.send("Storage.clearDataForOrigin", { origin, storageTypes: "all" });
+  await devtools.detach();
+  await page.context().clearCookies();
   // Away from what the next page shows there.
   await page.mouse.move(0, 0);
 }

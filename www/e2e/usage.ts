@@ -24,7 +24,7 @@ declare global {
 }
 
 /** Runs before the page's own scripts: records every context that is made. */
-function watchContexts(): void {
+export function watchContexts(): void {
   window.contexts = [];
   const { getContext } = HTMLCanvasElement.prototype;
   HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...asked: unknown[]) {
@@ -68,9 +68,8 @@ async function usageOf(page: Page, devtools: CDPSession): Promise<Usage> {
   };
 }
 
-/** Loads a page anew, and returns what tells what is in use there. The page must be its test's own. */
+/** Loads a page anew, before which {@link watchContexts} runs, and returns what tells what is in use there. */
 export async function watchUsage(page: Page): Promise<() => Promise<Usage>> {
-  await page.addInitScript(watchContexts);
   await page.route(/worker-[^/]*\.js$/, async (route) => {
     const answer = await route.fetch();
     await route.fulfill({ response: answer, body: WATCH_CORE + (await answer.text()) });

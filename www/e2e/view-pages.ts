@@ -1,9 +1,9 @@
-/** Pages with the view alone, for its tests: one build and one browser for all, and no unnoticed errors at the end. */
+/** Pages with the view alone, for its tests: one build for all, and no unnoticed errors at the end. */
 import { decode } from "fast-png";
-import type { Browser, BrowserContextOptions, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { launch, SOFTWARE_GL } from "./browser.js";
-import { Tabs } from "./tabs.js";
+import { SOFTWARE_GL } from "./browser.js";
+import { tabs, type TabOptions } from "./tabs.js";
 import type { Harness, Heard } from "./view-page/main.js";
 import { serveView } from "./view-serve.js";
 
@@ -13,42 +13,31 @@ declare global {
   }
 }
 
-export interface Prepared extends BrowserContextOptions {
-  /** Runs in the page before anything else; the tab is then the test's own. */
-  before?: () => void;
-}
-
-export function viewPages(): (options?: Prepared) => Promise<Page> {
-  let browser: Browser;
+export function viewPages(): (options?: TabOptions) => Promise<Page> {
   let served: Awaited<ReturnType<typeof serveView>>;
-  const tabs = new Tabs();
+  const own = tabs(SOFTWARE_GL);
   let complaints: string[] = [];
 
   beforeAll(async () => {
     served = await serveView();
-    browser = await launch(SOFTWARE_GL);
   });
 
-  afterAll(async () => {
-    await browser.close();
-    await served.close();
-  });
+  afterAll(() => served.close());
 
   afterEach(async ({ task }) => {
     const said = complaints;
     complaints = [];
-    await tabs.giveBack(task.result?.state === "fail");
+    await own.giveBack(task.result?.state === "fail");
     expect(said).toEqual([]);
   });
 
-  return async ({ before, ...options } = {}) => {
+  return async (options = {}) => {
     const usual = { locale: "en-GB", viewport: { width: 432, height: 448 }, reducedMotion: "reduce" } as const;
-    const page = await tabs.take(browser, { ...usual, ...options }, before !== undefined);
+    const page = await own.take({ ...usual, ...options });
     page.on("pageerror", (error) => complaints.push(error.message));
     page.on("console", (message) => {
       if (message.type() === "error") complaints.push(message.text());
     });
-    if (before !== undefined) await page.addInitScript(before);
     await page.goto(served.address);
     await page.waitForFunction(() => "harness" in window);
     return page;

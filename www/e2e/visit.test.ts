@@ -22,7 +22,7 @@ async function visitAgain(page: Page, address = "."): Promise<void> {
 }
 
 test("the printer that a person chose is there at the next visit, its file one click from the drop; what the address asks for wins", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   await drop(page, ball);
   await state(page, "done");
   await page.getByLabel("Printer", { exact: true }).selectOption("saturn-3-ultra");
@@ -47,8 +47,8 @@ test("the printer that a person chose is there at the next visit, its file one c
 });
 
 test("a browser that keeps nothing has all else", async () => {
-  const page = await start("", {}, true);
-  await page.addInitScript(() => {
+  const page = await start();
+  const script = await page.addInitScript(() => {
     Object.defineProperty(globalThis, "localStorage", { get: () => { throw new DOMException("no", "SecurityError"); } });
     delete (FileSystemFileHandle.prototype as Partial<FileSystemFileHandle>).createWritable;
   });
@@ -61,10 +61,11 @@ test("a browser that keeps nothing has all else", async () => {
   await page.getByLabel("Save the current settings as").fill("Fine");
   await page.getByRole("button", { name: "Save", exact: true }).click();
   expect(await page.locator("cusp-saved").getByRole("status").innerText()).toContain("storage is full or switched off");
+  await script.dispose();
 });
 
 test("settings are saved, applied, renamed, replaced and deleted by keyboard, and stay clear of the model's own", async () => {
-  const page = await start("?tolerance=0.02&height=12", {}, true);
+  const page = await start("?tolerance=0.02&height=12");
   const panel = page.locator("cusp-saved");
   const said = panel.getByRole("status");
   const save = async (name: string): Promise<void> => {
@@ -114,7 +115,7 @@ test("settings are saved, applied, renamed, replaced and deleted by keyboard, an
 });
 
 test("settings are saved as a file for the command line, and a link to them is copied, or shown where the browser does not let the page copy", async () => {
-  const page = await start("?height=12&tolerance=0.02", { permissions: ["clipboard-read", "clipboard-write"] }, true);
+  const page = await start("?height=12&tolerance=0.02", { permissions: ["clipboard-read", "clipboard-write"] });
   const panel = page.locator("cusp-saved");
   await page.getByRole("button", { name: "Presets" }).click();
   const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save as cusp.toml" }).click()]);
@@ -152,7 +153,7 @@ const kept = (page: Page): Promise<string[]> =>
   });
 
 test("models are kept if the person allows it, opened again by keyboard, and deleted when it is switched off", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   const panel = page.locator("#recent cusp-recent");
   const button = page.getByRole("button", { name: "Recent models" });
   await drop(page, ball);
@@ -229,7 +230,7 @@ test("a store of models that is full or fails keeps none, says so, and slicing g
 });
 
 test("two tabs share the list of recent models", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   await page.getByRole("button", { name: "Recent models" }).click();
   await page.getByRole("checkbox", { name: "Keep models in this browser" }).check();
   const other = await page.context().newPage();
@@ -242,7 +243,7 @@ test("two tabs share the list of recent models", async () => {
 });
 
 test("the tour is shown on the first visit, takes no focus, and comes again when asked for", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   await page.evaluate(() => localStorage.removeItem("cusp.tour"));
   await page.getByRole("button", { name: "Try the example" }).focus();
   await page.keyboard.press("Enter");
@@ -270,7 +271,7 @@ test("the tour is shown on the first visit, takes no focus, and comes again when
 });
 
 test("on a phone, by touch, cards and panels stay in the window and clear of the bar", async () => {
-  const page = await start("?locale=de", { viewport: { width: 390, height: 844 }, hasTouch: true }, true);
+  const page = await start("?locale=de", { viewport: { width: 390, height: 844 }, hasTouch: true });
   const inside = async (it: Locator): Promise<void> => {
     const { x, y, width, height } = (await it.boundingBox()) ?? { x: -1, y: -1, width: 0, height: 0 };
     expect(Math.min(x, y)).toBeGreaterThanOrEqual(0);
@@ -301,7 +302,7 @@ test("on a phone, by touch, cards and panels stay in the window and clear of the
 });
 
 test("question mark opens the list of keys, except where somebody types and where it is switched off", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   const dialog = page.getByRole("dialog", { name: "Keys" });
   await drop(page, ball);
   await state(page, "done");
