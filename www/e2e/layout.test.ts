@@ -1,5 +1,5 @@
 /** How the page is laid out and coloured: wide and narrow, in every language, light, dark and in forced colours. */
-import type { Locator, Page } from "playwright-core";
+import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { LANGUAGES } from "../src/texts/index.js";
 import { broken } from "./axe.js";
@@ -12,61 +12,57 @@ const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const DESKTOP = { viewport: { width: 1280, height: 800 } };
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
 
-/** What does not fit a panel: texts that leave it, texts that lie on each other, and choices that are cut. */
-function cramped(panel: Locator): Promise<string[]> {
-  return panel.evaluate((host) => {
-    const roots: ShadowRoot[] = [];
-    const collect = (root: ShadowRoot | null): void => {
-      if (root === null) return;
-      roots.push(root);
-      for (const it of root.querySelectorAll("*")) collect(it.shadowRoot);
-    };
-    collect(host.shadowRoot);
-    const { left, right } = host.getBoundingClientRect();
-    const texts: { said: string; box: DOMRect }[] = [];
+const PANELS = ["cusp-settings", "cusp-orientation", "cusp-findings", "cusp-quality", "cusp-mask", "cusp-chart"];
+
+/** What does not fit the panels on show, texts that leave them or lie on each other and choices that are cut, and what {@link cut} finds. */
+async function misfits(page: Page): Promise<string[]> {
+  const found = await page.locator(PANELS.join()).evaluateAll((hosts) => {
     const wrong: string[] = [];
-    for (const root of roots) {
-      const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
-      for (let node = walker.nextNode(); node !== null; node = walker.nextNode()) {
-        const said = node.textContent?.trim() ?? "";
-        const parent = node.parentElement;
-        if (said === "" || parent === null || parent.closest(".visually-hidden, select, style, svg") !== null) continue;
-        if (!parent.checkVisibility({ visibilityProperty: true }) || getComputedStyle(parent).clipPath !== "none") continue;
-        const range = document.createRange();
-        range.selectNodeContents(node);
-        for (const box of range.getClientRects()) texts.push({ said, box });
+    const cramped = (host: Element): void => {
+      const say = (what: string): void => void wrong.push(`${host.localName}: ${what}`);
+      const roots: ShadowRoot[] = [];
+      const collect = (root: ShadowRoot | null): void => {
+        if (root === null) return;
+        roots.push(root);
+        for (const it of root.querySelectorAll("*")) collect(it.shadowRoot);
+      };
+      collect(host.shadowRoot);
+      const { left, right } = host.getBoundingClientRect();
+      const texts: { said: string; box: DOMRect }[] = [];
+      for (const root of roots) {
+        const walker = document.createTreeWalker(root, NodeFilter.SHOW_TEXT);
+        for (let node = walker.nextNode(); node !== null; node = walker.nextNode()) {
+          const said = node.textContent?.trim() ?? "";
+          const parent = node.parentElement;
+          if (said === "" || parent === null || parent.closest(".visually-hidden, select, style, svg") !== null) continue;
+          if (!parent.checkVisibility({ visibilityProperty: true }) || getComputedStyle(parent).clipPath !== "none") continue;
+          const range = document.createRange();
+          range.selectNodeContents(node);
+          for (const box of range.getClientRects()) texts.push({ said, box });
+        }
+        for (const select of root.querySelectorAll("select")) {
+          const pen = document.createElement("canvas").getContext("2d");
+          const { font, paddingInlineStart, paddingInlineEnd } = getComputedStyle(select);
+          if (pen === null) continue;
+          pen.font = font;
+          const room = select.clientWidth - parseFloat(paddingInlineStart) - parseFloat(paddingInlineEnd);
+          // The names of printers may be long: they end in an ellipsis.
+          if (select.id === "printer") continue;
+          for (const { text } of select.selectedOptions) if (pen.measureText(text).width > room) say(`cut: ${text}`);
+        }
       }
-      for (const select of root.querySelectorAll("select")) {
-        const pen = document.createElement("canvas").getContext("2d");
-        const { font, paddingInlineStart, paddingInlineEnd } = getComputedStyle(select);
-        if (pen === null) continue;
-        pen.font = font;
-        const room = select.clientWidth - parseFloat(paddingInlineStart) - parseFloat(paddingInlineEnd);
-        // The names of printers may be long: they end in an ellipsis.
-        if (select.id === "printer") continue;
-        for (const { text } of select.selectedOptions) if (pen.measureText(text).width > room) wrong.push(`cut: ${text}`);
+      for (const [i, { said, box }] of texts.entries()) {
+        if (box.left < left - 1 || box.right > right + 1) say(`out: ${said}`);
+        for (const other of texts.slice(i + 1)) {
+          const across = Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left);
+          const down = Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top);
+          if (across > 1 && down > 4) say(`on each other: ${said} | ${other.said}`);
+        }
       }
-    }
-    for (const [i, { said, box }] of texts.entries()) {
-      if (box.left < left - 1 || box.right > right + 1) wrong.push(`out: ${said}`);
-      for (const other of texts.slice(i + 1)) {
-        const across = Math.min(box.right, other.box.right) - Math.max(box.left, other.box.left);
-        const down = Math.min(box.bottom, other.box.bottom) - Math.max(box.top, other.box.top);
-        if (across > 1 && down > 4) wrong.push(`on each other: ${said} | ${other.said}`);
-      }
-    }
+    };
+    for (const host of hosts) if (host.checkVisibility({ visibilityProperty: true })) cramped(host);
     return wrong;
   });
-}
-
-/** Texts that do not fit in what is on show, and what {@link cut} finds. */
-async function misfits(page: Page): Promise<string[]> {
-  const found: string[] = [];
-  for (const name of ["cusp-settings", "cusp-orientation", "cusp-findings", "cusp-quality", "cusp-mask", "cusp-chart"]) {
-    const panel = page.locator(name);
-    if ((await panel.count()) === 0 || !(await panel.isVisible())) continue;
-    found.push(...(await cramped(panel)).map((it) => `${name}: ${it}`));
-  }
   return [...found, ...(await cut(page))];
 }
 
@@ -80,39 +76,47 @@ function cut(page: Page): Promise<string[]> {
   });
 }
 
-test.each(LANGUAGES)("no text is cut, sticks out or lies on another, on a desktop and on the narrowest phone: %s", async (locale) => {
-  const page = await start(`?rays=512&locale=${locale}&printer=photon-mono-m5s`, { viewport: { width: 1440, height: 900 }, reducedMotion: "reduce" });
+test("no text is cut, sticks out or lies on another in any language, on a desktop and on the narrowest phone", async () => {
+  const page = await start("?rays=512&printer=photon-mono-m5s", { viewport: { width: 1280, height: 800 }, reducedMotion: "reduce" });
+  const speak = async (code: string): Promise<void> => {
+    await page.locator("select", { has: page.locator("option[lang=de]") }).selectOption(code);
+    await expect.poll(() => page.locator("html").getAttribute("lang")).toMatch(new RegExp(`^${code}`));
+  };
   // Names as long as they come.
   await drop(page, { name: `${"a-very-long-name-".repeat(8)}.txt`, bytes: new Uint8Array(1) });
   await state(page, "error");
-  expect(await misfits(page)).toEqual([]);
+  for (const code of LANGUAGES) {
+    await speak(code);
+    expect(await misfits(page), code).toEqual([]);
+  }
   await drop(page, { name: `${"a-very-long-name-".repeat(8)}.stl`, bytes: ball.bytes });
   await state(page, "done");
   await page.locator("cusp-quality svg").waitFor();
-  const steps = page.locator("cusp-workbench .path button");
   // The narrowest window with both sides, and the narrowest phone: wider ones have more room.
-  await page.setViewportSize({ width: 1280, height: 800 });
-  for (const step of await steps.all()) {
-    await step.click();
-    expect(await misfits(page), `1280 px, ${await step.innerText()}`).toEqual([]);
+  for (const code of LANGUAGES) {
+    await page.setViewportSize({ width: 1280, height: 800 });
+    await speak(code);
+    for (const step of await page.locator("cusp-workbench .path button").all()) {
+      await step.click();
+      expect(await misfits(page), `${code}, 1280 px, ${await step.innerText()}`).toEqual([]);
+    }
+    await page.setViewportSize({ width: 320, height: 800 });
+    for (const button of await page.locator("cusp-workbench :is(.path, .bar-panels) button").all()) {
+      await button.click();
+      await page.locator("cusp-workbench .sheet").waitFor();
+      expect(await misfits(page), `${code}, 320 px, ${await button.innerText()}`).toEqual([]);
+    }
+    // In letters as wide as any font of a system.
+    await page.evaluate(() => {
+      document.documentElement.style.fontSize = "112.5%";
+      document.querySelector<HTMLElement>("cusp-workbench")?.style.setProperty("--cusp-font", "monospace");
+    });
+    expect(await cut(page), code).toEqual([]);
+    await page.evaluate(() => {
+      document.documentElement.style.fontSize = "";
+      document.querySelector<HTMLElement>("cusp-workbench")?.style.removeProperty("--cusp-font");
+    });
   }
-  await page.setViewportSize({ width: 320, height: 800 });
-  for (const button of await page.locator("cusp-workbench :is(.path, .bar-panels) button").all()) {
-    await button.click();
-    await page.locator("cusp-workbench .sheet").waitFor();
-    expect(await misfits(page), `320 px, ${await button.innerText()}`).toEqual([]);
-    await button.click();
-    await expect.poll(() => page.locator("cusp-workbench .sheet").count()).toBe(0);
-  }
-  // In letters as wide as any font of a system.
-  await page.evaluate(() => {
-    document.documentElement.style.fontSize = "112.5%";
-    document.querySelector<HTMLElement>("cusp-workbench")?.style.setProperty("--cusp-font", "monospace");
-  });
-  expect(await cut(page)).toEqual([]);
-  await steps.nth(2).click();
-  await page.locator("cusp-workbench .sheet").waitFor();
-  expect(await cut(page)).toEqual([]);
 });
 
 /** Pixels that the page is larger than its window. */
@@ -135,8 +139,8 @@ async function inSight(page: Page, selectors: readonly string[]): Promise<void> 
   }
 }
 
-test("at 1280 × 800 nothing scrolls from the drop to the download, and nothing moves while a plan is made", async () => {
-  const page = await start("", DESKTOP);
+test("at 1280 × 800 nothing scrolls from the drop to the download, nothing moves while a plan is made, and the view grows with the window", async () => {
+  const page = await start("?rays=512", DESKTOP);
   expect(await overflow(page)).toEqual([0, 0]);
   await inSight(page, ["[part=drop]", "#printer"]);
   await drop(page, ball);
@@ -170,12 +174,7 @@ test("at 1280 × 800 nothing scrolls from the drop to the download, and nothing 
   await inSight(page, ["cusp-view", ".download"]);
   expect((await download(page)).suggestedFilename()).toBe("other-cusp.zip");
   expect(await overflow(page)).toEqual([0, 0]);
-});
 
-test("the view grows with the window", async () => {
-  const page = await start("", DESKTOP);
-  await drop(page, ball);
-  await state(page, "done");
   const area = async (): Promise<number> => {
     const box = await page.locator("cusp-view").boundingBox();
     return (box?.width ?? 0) * (box?.height ?? 0);
@@ -188,8 +187,8 @@ test("the view grows with the window", async () => {
   await expect.poll(area).toBeGreaterThan(2 * before);
 });
 
-test("on a phone the view comes first, the bar stays, and panels are sheets", async () => {
-  const page = await start("", PHONE);
+test("on a phone the view comes first, the bar stays, and panels are sheets, which give the focus back", async () => {
+  const page = await start("?rays=512", PHONE);
   await drop(page, ball);
   await state(page, "done");
   await page.waitForSelector("cusp-view");
@@ -203,22 +202,10 @@ test("on a phone the view comes first, the bar stays, and panels are sheets", as
     expect(await overflow(page)).toEqual([0, 0]);
   }
   expect(await broken(page)).toEqual([]);
-  await page.getByRole("button", { name: "Show the result" }).tap();
-  await page.locator(".sheet").getByText("Watertight").waitFor();
-  await page.getByRole("button", { name: "Close" }).tap();
-  await expect.poll(() => page.locator(".sheet").count()).toBe(0);
-  await page.locator("nav").getByRole("button", { name: "Slice" }).tap();
-  await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
-  await settled(page);
   await page.keyboard.press("Escape");
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
   await expect.poll(async () => (await page.locator("cusp-view").boundingBox())?.height).toBe(whole);
-});
 
-test("a sheet that closes gives the focus back to the button that opens it", async () => {
-  const page = await start("", PHONE);
-  await drop(page, ball);
-  await state(page, "done");
   const focused = (): Promise<string | undefined> =>
     page.locator("cusp-workbench").evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.textContent?.trim().replace(/\s+/g, " "));
   const press = (name: string): Promise<void> => page.locator(".path, .bar").getByRole("button", { name }).press("Enter");
@@ -227,13 +214,15 @@ test("a sheet that closes gives the focus back to the button that opens it", asy
     await page.locator(".sheet").getByRole("heading", { name: title, level: 2 }).waitFor();
   };
   const close = page.locator(".sheet").getByRole("button", { name: "Close" });
-  for (const [name, title] of [["Slice", "Slice"], ["Profile", "Profile"], ["Show the result", "Result"]] as const) {
-    for (const way of [() => close.press("Escape"), () => close.press("Enter"), () => press(name)]) {
-      await open(name, title);
-      await way();
-      await expect.poll(() => page.locator(".sheet").count()).toBe(0);
-      expect(await focused()).toContain(name);
-    }
+  for (const [way, name, title] of [
+    [() => close.press("Escape"), "Slice", "Slice"],
+    [() => close.press("Enter"), "Profile", "Profile"],
+    [() => press("Show the result"), "Show the result", "Result"],
+  ] as const) {
+    await open(name, title);
+    await way();
+    await expect.poll(() => page.locator(".sheet").count()).toBe(0);
+    expect(await focused()).toContain(name);
   }
   // From step to step: the button of the last one.
   await open("Turn");
@@ -250,8 +239,8 @@ test("a sheet that closes gives the focus back to the button that opens it", asy
   expect(await page.locator("cusp-workbench").evaluate(({ shadowRoot }) => shadowRoot?.activeElement?.localName)).toBe("cusp-layer-slider");
 });
 
-test("the slider beside the view stands at the height of its layer, also where the chart is zoomed", async () => {
-  const page = await start("", DESKTOP);
+test("the slider beside the view stands at the height of its layer, also where the chart is zoomed; tabs are chosen with the arrow keys", async () => {
+  const page = await start("?rays=512", DESKTOP);
   await drop(page, ball);
   await state(page, "done");
   await page.waitForSelector(".u-over");
@@ -289,12 +278,7 @@ test("the slider beside the view stands at the height of its layer, also where t
   await expect.poll(() => slider.getAttribute("max").then(Number)).toBeLessThan(15);
   expect(await said()).toBe(before);
   await expect.poll(async () => Math.abs((await tops())[0] - (await tops())[1])).toBeLessThan(2);
-});
 
-test("tabs are chosen with the arrow keys", async () => {
-  const page = await start("", DESKTOP);
-  await drop(page, ball);
-  await state(page, "done");
   await page.getByRole("tab", { name: "Quality" }).focus();
   await page.keyboard.press("ArrowRight");
   await page.locator("cusp-mask").waitFor();
@@ -313,17 +297,16 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
     await page.emulateMedia({ colorScheme: "light" });
     expect(await broken(page), what).toEqual([]);
   };
-  await checked("empty");
   await drop(page, { name: "notes.txt", bytes: new Uint8Array(1) });
   await state(page, "error");
   await checked("a file that will not do");
   await drop(page, ball);
   await state(page, "done");
-  for (const [step, shown] of [["Check", "cusp-findings [data-verdict]"], ["Hollow", "cusp-settings"], ["Support", "cusp-settings"]] as const) {
-    await openPanel(page, step);
-    await page.waitForSelector(shown);
-    await checked(step);
-  }
+  await openPanel(page, "Check");
+  await page.waitForSelector("cusp-findings [data-verdict]");
+  await checked("Check");
+  await openPanel(page, "Support");
+  await checked("Support");
   await openPanel(page, "Turn");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose").first().waitFor();
