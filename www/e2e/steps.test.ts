@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import type { Check } from "../src/api/index.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import type { Report } from "../src/api/wire.js";
-import { downloaded, drop, openPanel, settled, state } from "./browser.js";
+import { downloaded, drop, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { floating } from "./solids.js";
 
@@ -57,7 +57,7 @@ async function litAt(page: Page): Promise<(z_mm: number) => number> {
   return (z_mm) => layer_files.find((layer) => layer.z_mm >= z_mm)?.lit_pixels ?? 0;
 }
 
-test("a first-time user goes from step to step, and the file has supports and a void", async () => {
+test("a first-time user goes from step to step, each at its top, and the file has supports and a void; going back loses nothing", async () => {
   const page = await opened(DESKTOP);
   // Those who only want a file have it: nothing is asked.
   expect(await title(page).innerText()).toBe("Slice");
@@ -104,53 +104,36 @@ test("a first-time user goes from step to step, and the file has supports and a 
   const { lift_mm = 0 } = supported ?? {};
   expect(lit(lift_mm + SIDE_MM + GAP_MM / 2)).toBeGreaterThan(0);
   expect(lit(lift_mm + SIDE_MM / 2)).toBeLessThan(0.8 * solid(SIDE_MM / 2));
-});
 
-test("going back loses nothing, not even what cannot be read, and turning to a step changes nothing", async () => {
-  const page = await opened(DESKTOP, "&wall=2&supports=medium");
   const before = await page.evaluate(() => location.search);
-  const points = (await report(page)).supported?.points;
-  for (const name of ["Turn", "Check", "Hollow", "Support", "Slice"]) await step(page, name).click();
-  for (const name of ["Support", "Hollow", "Check", "Turn"]) {
-    await back(page);
-    await at(page, name);
-  }
-  expect(await page.getByRole("button", { name: "Back", exact: true }).count()).toBe(0);
-  await state(page, "done");
-  expect(await page.evaluate(() => location.search)).toBe(before);
-  expect((await report(page)).supported?.points).toEqual(points);
-  await openPanel(page, "Hollow");
-  await page.getByLabel("Hollow, with walls of").fill("thick");
-  await expect.poll(() => said(page, "Hollow")).toBe("To be corrected");
-  await next(page, "Support");
-  expect(await page.getByLabel("Supports").inputValue()).toBe("medium");
-  await back(page);
-  expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("thick");
-  await page.getByRole("button", { name: "Undo" }).click();
-  await settled(page);
-  expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("2");
-  expect(await said(page, "Hollow")).toBe("Walls of 2\u00a0mm");
-});
-
-test("a step is at its top, whatever was read of the one before", async () => {
-  const page = await opened(DESKTOP);
   const panel = page.locator("cusp-workbench .choices .panel");
   await panel.evaluate((it) => it.scrollTo(0, 1000));
   expect(await panel.evaluate((it) => it.scrollTop)).toBeGreaterThan(0);
   await back(page);
   await at(page, "Support");
-  await back(page);
-  await next(page, "Support");
-  await next(page, "Slice");
   expect(await panel.evaluate((it) => it.scrollTop)).toBe(0);
+  await back(page);
+  await at(page, "Hollow");
+  // Not even what cannot be read.
+  await page.getByLabel("Hollow, with walls of").fill("thick");
+  await expect.poll(() => said(page, "Hollow")).toBe("To be corrected");
+  await back(page);
+  await at(page, "Check");
+  await next(page, "Hollow");
+  expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("thick");
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("2");
+  expect(await page.evaluate(() => location.search)).toBe(before);
+  expect((await report(page)).supported?.points).toEqual(supported?.points);
 });
 
 test("by keyboard alone, with Tab and keys, a first visit gets through the steps to the file", async () => {
   const page = await start("?backend=cpu&rays=512", { ...DESKTOP, reducedMotion: "reduce" });
-  const press = async (target: Locator, key = "Enter"): Promise<void> => {
+  const press = async (target: Locator, key = "Enter", way: "Tab" | "Shift+Tab" = "Tab"): Promise<void> => {
     for (let i = 0; i < 80; i++) {
       if (await target.evaluate((it) => (it.getRootNode() as ShadowRoot).activeElement === it)) return page.keyboard.press(key);
-      await page.keyboard.press("Tab");
+      await page.keyboard.press(way);
     }
     throw new Error("Tab does not get there");
   };
@@ -166,10 +149,10 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
   await expect.poll(() => slider.getAttribute("aria-valuetext")).toMatch(/^Layer 11 of/);
   await press(page.getByRole("tab", { name: "Quality" }), "End");
   await page.waitForSelector("canvas[data-layer]");
-  await press(step(page, "Turn"));
+  await press(step(page, "Turn"), "Enter", "Shift+Tab");
   await expect.poll(() => title(page).innerText()).toBe("Turn");
   for (const name of ["Check", "Hollow", "Support"]) {
-    await press(page.getByRole("button", { name: `Next: ${name}` }));
+    await press(page.getByRole("button", { name: `Next: ${name}` }), "Enter", name === "Check" ? "Shift+Tab" : "Tab");
     await at(page, name);
   }
   await press(page.getByLabel("Supports"), "ArrowDown");
@@ -182,10 +165,36 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
   expect(file.suggestedFilename()).toBe("goblet-cusp.zip");
 });
 
-test("by touch on a phone, from a first visit to the file; each step is a sheet, which its button closes", async () => {
+/** Expects all of it in the window. */
+async function inside(page: Page, it: Locator): Promise<void> {
+  const { width, height } = page.viewportSize() ?? { width: 0, height: 0 };
+  const box = (await it.boundingBox()) ?? { x: -1, y: -1, width: 0, height: 0 };
+  expect(Math.min(box.x, box.y)).toBeGreaterThanOrEqual(0);
+  expect(box.x + box.width).toBeLessThanOrEqual(width);
+  expect(box.y + box.height).toBeLessThanOrEqual(height);
+}
+
+test("by touch on a phone, from a first visit to the file: cards and tour stay in the window, and each step is a sheet, which its button closes", async () => {
   const page = await start("?backend=cpu&rays=512", { ...PHONE, reducedMotion: "reduce" });
+  for (const id of ["recent", "saved"]) {
+    await page.locator(`[popovertarget=${id}]`).tap();
+    await page.locator(`#${id} .panel`).first().waitFor();
+    await inside(page, page.locator(`#${id}`));
+    await page.keyboard.press("Escape");
+  }
+  await page.evaluate(() => localStorage.removeItem("cusp.tour"));
   await page.getByRole("button", { name: "Try the example" }).tap();
   await state(page, "done");
+  const card = page.locator("cusp-tour .card");
+  const bar = await page.locator("cusp-workbench .bar-panels").locator("..").boundingBox();
+  for (const step of [1, 2, 3]) {
+    await expect.poll(() => card.locator(".quiet").innerText()).toContain(String(step));
+    await inside(page, card);
+    const box = await card.boundingBox();
+    expect((box?.y ?? 0) + (box?.height ?? 0)).toBeLessThanOrEqual(bar?.y ?? 0);
+    await card.getByRole("button").last().tap();
+  }
+  await expect.poll(() => card.count()).toBe(0);
   expect(await page.locator(".sheet").count()).toBe(0);
   expect(await row(page).locator("[aria-current]").count()).toBe(0);
   await step(page, "Turn").tap();
