@@ -12,7 +12,7 @@ import { sphere } from "./solids.js";
 const start = pages(SOFTWARE_GL);
 
 /** A view that software draws quickly. */
-const SMALL = { viewport: { width: 1280, height: 500 } };
+const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 
 const RADIUS = 10;
 const ball = { name: "ball.stl", bytes: sphere(RADIUS, 48).bytes };
@@ -52,14 +52,14 @@ async function isMarker(page: Page, at: readonly [number, number]): Promise<bool
   return page.locator("cusp-view .scene.over").count().then((count) => count > 0);
 }
 
-/** Where a marker is, on the upright line through a place. */
-async function markerAt(page: Page, x: number): Promise<[number, number]> {
-  const box = await page.locator("cusp-view").boundingBox();
-  if (box === null) throw new Error("there is no view");
+/** Where a marker is, straight above a place. */
+async function markerAbove(page: Page, [x, from]: readonly [number, number]): Promise<[number, number]> {
   const found: number[] = [];
-  for (let y = box.y; y < box.y + box.height; y += 10) if (await isMarker(page, [x, y])) found.push(y);
-  if (found.length === 0) throw new Error("there is no marker");
-  return [x, ((found[0] ?? 0) + (found.at(-1) ?? 0)) / 2];
+  for (let y = from; y > 0; y -= 10) {
+    if (await isMarker(page, [x, y])) found.push(y);
+    else if (found.length > 0) return [x, ((found[0] ?? 0) + (found.at(-1) ?? 0)) / 2];
+  }
+  throw new Error("there is no marker");
 }
 
 const radius = ([x, y, z]: Triple): number => Math.hypot(x, y, z - RADIUS);
@@ -83,7 +83,7 @@ test("a click adds the first point, a drag moves it along the surface, a key del
   expect(await broken(page)).toEqual([]);
 
   // The model was lifted, and the marker with it.
-  const at = await markerAt(page, middle[0]);
+  const at = await markerAbove(page, middle);
   await page.mouse.move(...at);
   await page.mouse.down();
   await page.mouse.move(at[0] + 10, at[1] + 10, { steps: 3 });
@@ -110,50 +110,6 @@ test("a click adds the first point, a drag moves it along the surface, a key del
   await page.keyboard.press("Control+z");
   await settled(page);
   expect(await supported(page)).toEqual([second]);
-  await page.keyboard.press("Control+z");
-  await settled(page);
-  expect(await supported(page)).toEqual([first]);
-  // Another pose has other points.
-  await page.getByLabel("Scale to height").fill("15");
-  await settled(page);
-  expect(query(page).has("points")).toBe(false);
-});
-
-test("the first edit keeps the automatic points where they are; placed anew, locked ones stay", async () => {
-  const page = await opened("&supports=light", "Support points");
-  const before = await supported(page);
-  expect(before.length).toBeGreaterThan(5);
-  expect(await count(page, "Automatic")).toBe(String(before.length));
-  const view = page.locator("cusp-view");
-  await page.mouse.click(...(await placeIn(view, 0.5, 0.53)));
-  await settled(page);
-  const after = await supported(page);
-  expect(after).toHaveLength(before.length + 1);
-  for (const point of before) expect(after.some((other) => Math.hypot(...point.map((mm, axis) => mm - (other[axis] ?? 0))) < 0.01)).toBe(true);
-  const own = after.filter((point) => !before.some((other) => Math.hypot(...point.map((mm, axis) => mm - (other[axis] ?? 0))) < 0.01));
-  expect(own).toHaveLength(1);
-  expect([await count(page, "By hand"), await count(page, "Automatic")]).toEqual(["1", String(before.length)]);
-
-  await page.getByRole("button", { name: "Place automatically" }).click();
-  await settled(page);
-  expect([query(page).get("fill"), query(page).get("points")?.split(";").length]).toEqual(["on", 1]);
-  expect(await supported(page)).toContainEqual(own[0]);
-  expect((await supported(page)).length).toBeGreaterThan(5);
-  // Unlocked, it goes as well.
-  await page.getByRole("checkbox", { name: "Locked" }).uncheck();
-  await settled(page);
-  await page.getByRole("button", { name: "Place automatically" }).click();
-  await settled(page);
-  expect(await supported(page)).toEqual(before);
-  // Another pose has other points.
-  await page.mouse.click(...(await placeIn(view, 0.5, 0.53)));
-  await settled(page);
-  await page.getByLabel("Scale to height").fill("15");
-  await settled(page);
-  expect(query(page).has("points")).toBe(false);
-  await page.getByRole("button", { name: "Clear" }).click();
-  await settled(page);
-  expect(await supported(page)).toEqual([]);
 });
 
 test("points are placed, chosen, locked and deleted by keyboard; those of a turned and scaled model are on its surface", async () => {
@@ -186,8 +142,8 @@ test("points are placed, chosen, locked and deleted by keyboard; those of a turn
   await expect.poll(() => supported(page)).toHaveLength(1);
 });
 
-test("a hole is drilled into a hollow model by a click, inward, the void is seen through it, and its plug is saved as an STL", async () => {
-  const page = await opened("&wall=1.5", "Drain holes");
+test("a hole is drilled into a hollow model by a click, inward, and its plug is saved as an STL; weights that points and holes keep off are shown", async () => {
+  const page = await opened("&supports=light&wall=1.5", "Drain holes");
   const automatic = await drains(page);
   expect(automatic.length).toBeGreaterThan(0);
   const view = page.locator("cusp-view");
@@ -212,23 +168,8 @@ test("a hole is drilled into a hollow model by a click, inward, the void is seen
   expect(plugs).toHaveLength(84 + 50 * facets);
   expect([facets > 0, facets % after.length]).toEqual([true, 0]);
   expect(await broken(page)).toEqual([]);
-  await page.getByRole("button", { name: "Place automatically" }).click();
-  await settled(page);
-  expect(query(page).has("drain")).toBe(false);
-  expect(await drains(page)).toContainEqual(own);
-  await page.getByRole("button", { name: "Clear" }).click();
-  await settled(page);
-  expect(await drains(page)).toEqual([]);
-  expect(await button.count()).toBe(0);
-  // Without walls there is nothing to drain.
-  await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query = ""));
-  await settled(page);
-  expect(await page.getByRole("radio", { name: "Drain holes" }).count()).toBe(0);
-  expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
-});
 
-test("while supports and holes keep off what weighs much, the view shows the weights", async () => {
-  const page = await opened("&supports=light&wall=1.5", "Support points");
+  // While supports and holes keep off what weighs much, the view shows the weights.
   const shown = (): Promise<readonly [string, string]> => page.locator("cusp-view").evaluate(({ look, heat }: CuspView) => [look, heat] as const);
   const spare = page.getByRole("switch", { name: "Keep points and holes off what is painted as important" });
   expect(await spare.isDisabled()).toBe(true);
@@ -238,6 +179,8 @@ test("while supports and holes keep off what weighs much, the view shows the wei
   });
   await settled(page);
   expect(await shown()).toEqual(["thickness", "product"]);
+  await page.getByRole("button", { name: "Place automatically" }).click();
+  await settled(page);
   await spare.check();
   await settled(page);
   expect(await shown()).toEqual(["weights", "product"]);
@@ -247,7 +190,7 @@ test("while supports and holes keep off what weighs much, the view shows the wei
       return [supports?.spare, hollow?.auto_drain];
     });
   expect(await asked()).toEqual([true, { spare: true }]);
-  await page.getByRole("radio", { name: "Drain holes" }).check();
+  await page.getByRole("radio", { name: "Support points" }).check();
   expect(await spare.isChecked()).toBe(true);
   expect(await shown()).toEqual(["weights", "product"]);
   await page.locator("cusp-view .legend").waitFor();
@@ -255,10 +198,5 @@ test("while supports and holes keep off what weighs much, the view shows the wei
   await spare.uncheck();
   await settled(page);
   expect(await asked()).toEqual([undefined, {}]);
-  expect((await shown())[0]).toBe("thickness");
-  await page.keyboard.press("Control+z");
-  await settled(page);
-  expect(await asked()).toEqual([true, { spare: true }]);
-  await page.getByRole("radio", { name: "Look around" }).check();
   expect((await shown())[0]).toBe("thickness");
 });

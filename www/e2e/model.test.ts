@@ -9,7 +9,7 @@ import { cup, prism, sphere } from "./solids.js";
 const start = pages(SOFTWARE_GL);
 
 /** A view that software draws quickly. */
-const SMALL = { viewport: { width: 1280, height: 500 } };
+const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const block = { name: "block.stl", bytes: prism(12, 8).bytes };
 

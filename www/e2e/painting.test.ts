@@ -9,7 +9,7 @@ import { sphere } from "./solids.js";
 const start = pages(SOFTWARE_GL);
 
 /** A view that software draws quickly. */
-const SMALL = { viewport: { width: 1280, height: 500 } };
+const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 
 const RADIUS = 10;
 /** The usual thickest layer. */
