@@ -37,15 +37,7 @@ const weights = (page: Page): Promise<number[] | null> =>
     return found === null ? null : [...found];
   });
 
-/** Opens the ball and selects the brush. */
-async function brushInHand(query = "?backend=cpu&rays=512"): Promise<Page> {
-  const page = await start(query, SMALL);
-  await drop(page, ball);
-  await state(page, "done");
-  await page.getByRole("radio", { name: "What matters" }).click();
-  await page.waitForSelector("cusp-view");
-  return page;
-}
+const brush = (page: Page): Promise<void> => page.getByRole("radio", { name: "What matters" }).click();
 
 /** Where the model is highest on the screen, found by hovering. */
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
@@ -86,15 +78,15 @@ async function stroke(page: Page, { x, y }: { x: number; y: number }): Promise<v
   await page.mouse.up();
 }
 
-async function widest(page: Page): Promise<void> {
-  await page.getByRole("slider", { name: "Size (mm)" }).fill("95");
-}
-
-test("what is painted to matter less is planned thicker there and as before elsewhere; undone and made again, saved and reloaded, it is the same plan", async () => {
-  const page = await brushInHand();
+test("what is painted to matter less is planned thicker there and as before elsewhere; undone and made again, saved and loaded, it is the same plan; what stands out counts when that is switched on", async () => {
+  const page = await start("?backend=cpu&rays=512", SMALL);
+  await drop(page, ball);
+  await state(page, "done");
+  await brush(page);
+  await page.waitForSelector("cusp-view");
   const before = await plan(page);
   expect(before.crc32).toBeNull();
-  await widest(page);
+  await page.getByRole("slider", { name: "Size (mm)" }).fill("95");
   const at = await top(page);
   expect(at.z_mm).toBeGreaterThan(0.95 * 2 * RADIUS);
   await stroke(page, at);
@@ -142,28 +134,8 @@ test("what is painted to matter less is planned thicker there and as before else
   expect(file.suggestedFilename()).toBe("ball.weights");
   const path = await file.path();
 
-  const again = await brushInHand();
-  expect((await plan(again)).z_mm).toEqual(before.z_mm);
-  await again.getByLabel("Load weights").setInputFiles(path);
-  await expect.poll(() => weights(again)).toEqual(await weights(page));
-  await settled(again);
-  const reloaded = await plan(again);
-  expect(reloaded.z_mm).toEqual(painted.z_mm);
-  expect(reloaded.crc32).toBe(painted.crc32);
-  // Another model has none, and takes none of this one.
-  await drop(again, { name: "smaller.stl", bytes: sphere(RADIUS, 32).bytes });
-  await state(again, "done");
-  await again.getByRole("radio", { name: "What matters" }).click();
-  expect(await weights(again)).toBeNull();
-  await again.getByLabel("Load weights").setInputFiles(path);
-  await again.getByText(/ is of another model/).waitFor();
-  await again.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer: Buffer.from("nothing of the kind") });
-  await again.getByText("ball.weights holds no weights").waitFor();
-  expect(await weights(again)).toBeNull();
-});
-
-test("a stroke beside the model turns the view and paints nothing", async () => {
-  const page = await brushInHand();
+  // A stroke beside the model turns the view and paints nothing.
+  const kept = await weights(page);
   const view = page.locator("cusp-view");
   const seen = await view.screenshot();
   const box = await view.boundingBox();
@@ -172,19 +144,36 @@ test("a stroke beside the model turns the view and paints nothing", async () => 
   await page.mouse.down();
   await page.mouse.move(box.x + 120, box.y + box.height - 60, { steps: 5 });
   await page.mouse.up();
-  expect(await weights(page)).toBeNull();
+  expect(await weights(page)).toEqual(kept);
   expect((await view.screenshot()).equals(seen)).toBe(false);
-});
 
-test("what stands out counts in the plan when that is switched on", async () => {
-  const page = await start("?backend=cpu&rays=512", SMALL);
-  await page.getByRole("button", { name: "Try the example" }).click();
+  await drop(page, { ...ball, name: "again.stl" });
+  await expect.poll(() => weights(page)).toBeNull();
   await state(page, "done");
-  const before = await plan(page);
-  await page.getByRole("radio", { name: "What matters" }).click();
+  expect((await plan(page)).z_mm).toEqual(before.z_mm);
+  await brush(page);
+  await page.getByLabel("Load weights").setInputFiles(path);
+  await expect.poll(() => weights(page)).toEqual(kept);
+  await settled(page);
+  const reloaded = await plan(page);
+  expect(reloaded.z_mm).toEqual(painted.z_mm);
+  expect(reloaded.crc32).toBe(painted.crc32);
+
+  // Another model has none, and takes none of this one.
+  await page.getByRole("button", { name: "Example" }).click();
+  await expect.poll(() => weights(page)).toBeNull();
+  await state(page, "done");
+  const plain = await plan(page);
+  await brush(page);
+  await page.getByLabel("Load weights").setInputFiles(path);
+  await page.getByText(/ is of another model/).waitFor();
+  await page.getByLabel("Load weights").setInputFiles({ name: "ball.weights", mimeType: "application/octet-stream", buffer: Buffer.from("nothing of the kind") });
+  await page.getByText("ball.weights holds no weights").waitFor();
+  expect(await weights(page)).toBeNull();
+
+  // What stands out counts in the plan when that is switched on.
   await page.getByRole("checkbox", { name: "What stands out matters more" }).check();
   await settled(page);
-  const after = await plan(page);
-  expect(after.z_mm.length).toBeLessThan(before.z_mm.length);
+  expect((await plan(page)).z_mm.length).toBeLessThan(plain.z_mm.length);
   expect(new URL(page.url()).searchParams.get("saliency")).toBe("on");
 });
