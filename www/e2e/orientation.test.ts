@@ -1,6 +1,7 @@
 /** The search for the best orientation, as people use it. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
+import { binaryStl, exampleTriangles } from "../src/page/example.js";
 import { drop, layers, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { cup, sphere } from "./solids.js";
@@ -11,9 +12,11 @@ const panel = (page: Page): Locator => page.locator("cusp-orientation");
 const disc = (page: Page, side: "Front" | "Back"): Locator =>
   panel(page).locator("figure").filter({ hasText: side }).locator(".disc");
 
-async function example(): Promise<Page> {
-  const page = await start("?backend=cpu&rays=512", { reducedMotion: "reduce" });
-  await page.getByRole("button", { name: "Try the example" }).click();
+const mug = { name: "mug.stl", bytes: cup(20, 30, 2) };
+
+async function opened(query: string, file = mug): Promise<Page> {
+  const page = await start(`?backend=cpu&rays=512${query}`, { reducedMotion: "reduce" });
+  await drop(page, file);
   await state(page, "done");
   await openPanel(page, "Turn");
   return page;
@@ -90,8 +93,8 @@ async function at(page: Page, side: "Front" | "Back", right: number, up: number)
 const figure = async (page: Page, name: string): Promise<string> =>
   (await panel(page).locator(".looked div").filter({ has: page.locator("dt", { hasText: name }) }).locator("dd").innerText()).replace(",", "");
 
-test("a search fills the sphere and offers three directions; one is applied by its button, and the sphere turns along", async () => {
-  const page = await example();
+test("a search fills the sphere and offers three directions; they are applied by button, pointer and keys, and the sphere turns along", async () => {
+  const page = await opened("", { name: "goblet.stl", bytes: binaryStl(exampleTriangles()) });
   await page.evaluate(() => {
     document.querySelector("cusp-workbench")?.addEventListener("cusp-orientation", ({ detail }) => {
       document.documentElement.dataset["promised"] = String(detail.metrics?.layers);
@@ -131,26 +134,10 @@ test("a search fills the sphere and offers three directions; one is applied by i
   await settled(page);
   expect(await layers(page)).toBe(before);
 
-  // What counts may change without measuring again, and settings that matter make it out of date.
-  await page.locator("cusp-orientation").getByLabel("Quality").selectOption("Overhang");
-  await expect.poll(picture).not.toBe(unturned);
-  await searched(page);
-  const outdated = panel(page).getByText("Found with other settings");
-  expect(await outdated.count()).toBe(0);
-  await openPanel(page, "Slice");
-  await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
-  await settled(page);
-  await openPanel(page, "Turn");
-  await outdated.waitFor();
-});
-
-test("a direction is applied by pointing and clicking, and by arrow keys and Enter; its metrics are shown before", async () => {
-  const page = await example();
-  const before = await layers(page);
-  await search(page);
+  // By pointing and clicking; its metrics are shown before.
   const { x, y } = await at(page, "Front", 0.5, -0.3);
   await page.mouse.move(x, y);
-  const promised = Number(await figure(page, "Layers"));
+  const pointed = Number(await figure(page, "Layers"));
   expect(await figure(page, "Size")).toMatch(/mm$/);
   expect(Number(await figure(page, "Score"))).toBeGreaterThan(0);
   // Another place is another direction.
@@ -164,8 +151,8 @@ test("a direction is applied by pointing and clicking, and by arrow keys and Ent
   await page.mouse.click(x, y);
   await settled(page);
   await page.getByRole("button", { name: "As in the file" }).waitFor();
-  expect(Math.abs((await layers(page)) - promised)).toBeLessThanOrEqual(1);
-  expect(promised).not.toBe(before);
+  expect(Math.abs((await layers(page)) - pointed)).toBeLessThanOrEqual(1);
+  expect(pointed).not.toBe(before);
 
   // Again by keyboard, away from the pointer.
   await page.mouse.move(0, 0);
@@ -187,14 +174,25 @@ test("a direction is applied by pointing and clicking, and by arrow keys and Ent
   await settled(page);
   await page.getByRole("button", { name: "As in the file" }).waitFor();
   expect(Math.abs((await layers(page)) - next)).toBeLessThanOrEqual(1);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+
+  // What counts may change without measuring again, and settings that matter make it out of date.
+  await panel(page).getByLabel("Quality").selectOption("Overhang");
+  await expect.poll(picture).not.toBe(unturned);
+  await searched(page);
+  const outdated = panel(page).getByText("Found with other settings");
+  expect(await outdated.count()).toBe(0);
+  await openPanel(page, "Slice");
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
+  await settled(page);
+  await openPanel(page, "Turn");
+  await outdated.waitFor();
 });
 
 test("directions that do not fit the printer are grey, and say why", async () => {
   // As large as the printer allows upright: tilted, it is too large.
-  const page = await start("?backend=cpu&rays=512&printer=mars-4-ultra&height=115", { reducedMotion: "reduce" });
-  await drop(page, { name: "mug.stl", bytes: cup(20, 30, 2) });
-  await state(page, "done");
-  await openPanel(page, "Turn");
+  const page = await opened("&printer=mars-4-ultra&height=115");
   await search(page);
   const { grey } = await seen(page, "Front");
   expect(grey).toBeGreaterThan(0.01);
@@ -209,10 +207,7 @@ test("directions that do not fit the printer are grey, and say why", async () =>
 });
 
 test("a search is cancelled by its button and by Escape, and leaves what it measured", async () => {
-  const page = await start("?backend=cpu&rays=512");
-  await drop(page, { name: "ball.stl", bytes: sphere(10, 600).bytes });
-  await state(page, "done");
-  await openPanel(page, "Turn");
+  const page = await opened("", { name: "ball.stl", bytes: sphere(10, 400).bytes });
   const find = panel(page).getByRole("button", { name: "Find the best orientation" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();
