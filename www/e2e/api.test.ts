@@ -19,7 +19,7 @@ const ball = sphere(10, 48).bytes;
 const block = prism(8, 6).bytes;
 const goblet = binaryStl(exampleTriangles());
 // Enough facets and rays to observe each stage.
-const heavy = sphere(10, 700).bytes;
+const heavy = sphere(10, 400).bytes;
 
 let served: Served;
 let page: Page;
@@ -173,7 +173,7 @@ test("an abort stops a call at any stage, at once if it waits for its turn, and 
         (error: Error) => error.name,
       );
     await slicer.load("heavy.stl");
-    const options = { rays: 1024, backend: "cpu" } as const;
+    const options = { rays: 512, backend: "cpu" } as const;
     const { report } = await slicer.plan(options);
     const names: string[] = [];
     const layers: number[] = [report.layers];
@@ -181,7 +181,7 @@ test("an abort stops a call at any stage, at once if it waits for its turn, and 
       const abort = new AbortController();
       const call = { signal: abort.signal, onProgress: (at: string) => void (at === stage && abort.abort()) };
       const file = await (await fetch("heavy.stl")).blob();
-      const running = { load: () => slicer.load(file, call), ldi: () => slicer.plan({ ...options, rays: 4096 }, call), masks: () => slicer.export(options, call) };
+      const running = { load: () => slicer.load(file, call), ldi: () => slicer.plan({ ...options, rays: 2048 }, call), masks: () => slicer.export(options, call) };
       names.push(await nameOf(running[stage as keyof typeof running]()));
       const { bits } = await slicer.mask(report.layers >> 1);
       if (!bits.some((byte) => byte !== 0)) throw new Error(`no mask after ${stage}`);
@@ -221,7 +221,7 @@ test("a call whose worker ends without a word rejects, and the next one has anot
 
 test("a search for directions gives the same with any number of workers, and with what it measured before", async () => {
   const found = await page.evaluate(async () => {
-    const search = { directions: 100, quality: "roughness" } as const;
+    const search = { directions: 50, quality: "roughness" } as const;
     const searched = async (workers: number) => {
       const slicer = window.api.createSlicer({ workers });
       await slicer.load("goblet.stl");
@@ -235,7 +235,7 @@ test("a search for directions gives the same with any number of workers, and wit
       slicer.dispose();
       return { schema, known, candidates, best, again: again.best, layers: plan.report.layers };
     };
-    return Promise.all([1, 2, 3].map(searched));
+    return Promise.all([1, 2].map(searched));
   });
   const [one, ...others] = found;
   if (one === undefined) throw new Error("nothing was found");
@@ -243,7 +243,7 @@ test("a search for directions gives the same with any number of workers, and wit
   expect(one.again).toEqual(one.best);
   expect(one.schema).toBe(2);
   expect(one.known).toBe(one.candidates.length);
-  expect(one.candidates.length).toBeGreaterThanOrEqual(100);
+  expect(one.candidates.length).toBeGreaterThanOrEqual(50);
   const [first] = one.best;
   expect(first?.energy).toBeLessThanOrEqual(Math.min(...one.candidates.map(({ energy }) => energy ?? Infinity)));
   expect(one.layers).toBe(first?.metrics?.layers);
