@@ -1,26 +1,24 @@
 /** What the page fetches, when, and what happens where it cannot. */
-import type { Browser, Page } from "playwright-core";
-import { afterAll, beforeAll, expect, inject, test } from "vitest";
+import type { Page } from "playwright-core";
+import { expect, inject, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, launch, layers, open, openPanel, state, USUAL, visit } from "./browser.js";
+import { drop, layers, openPanel, state, USUAL, visit } from "./browser.js";
 import { beforeView, whole } from "./loaded.js";
+import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
+import { tabs, type TabOptions } from "./tabs.js";
 
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 
-let browser: Browser;
-
-beforeAll(async () => {
-  browser = await launch();
-});
-
-afterAll(() => browser.close());
+const start = pages();
+/** Tabs of the same browser, which {@link start} gives back too. */
+const take = (options: TabOptions = {}): Promise<Page> => tabs().take({ ...USUAL, ...options });
 
 test("loaded once, the page opens and slices without a network", async () => {
-  const { page, complaints } = await open(browser, inject("address"), { serviceWorkers: "allow" });
+  const page = await start("", { serviceWorkers: "allow" });
   await page.evaluate(async () => void (await navigator.serviceWorker.ready));
   await page.context().setOffline(true);
-  await page.goto(`${inject("address")}?height=20`);
+  await page.goto(`${inject("address")}?height=20&rays=512`);
   await page.waitForSelector("cusp-workbench[state=empty]");
   // A local file needs no network.
   await page.getByLabel(/Choose a file/).setInputFiles({ name: ball.name, mimeType: "", buffer: Buffer.from(ball.bytes) });
@@ -30,12 +28,12 @@ test("loaded once, the page opens and slices without a network", async () => {
   await page.waitForSelector("cusp-chart .plot canvas");
   await openPanel(page, "Check");
   await page.waitForSelector("cusp-findings [data-verdict]");
-  expect(complaints).toEqual([]);
-  await page.context().close();
+  await page.context().setOffline(false);
 });
 
 test("the page is forbidden to send anything anywhere", async () => {
-  const { page } = await open(browser, inject("address"));
+  const page = await take();
+  await visit(page, inject("address"));
   const forbidden = await page.evaluate(
     () =>
       new Promise<string>((resolve) => {
@@ -44,11 +42,10 @@ test("the page is forbidden to send anything anywhere", async () => {
       }),
   );
   expect(forbidden).toBe("connect-src");
-  await page.context().close();
 });
 
 test("a slicer that cannot be fetched says what to do, and is fetched again with the next file", async () => {
-  const page = await (await browser.newContext(USUAL)).newPage();
+  const page = await take();
   let isThere = false;
   await page.route(/\.wasm$/, (route) => (isThere ? route.continue() : route.abort()));
   await visit(page, inject("address"));
@@ -60,11 +57,10 @@ test("a slicer that cannot be fetched says what to do, and is fetched again with
   isThere = true;
   await drop(page, ball);
   await state(page, "done");
-  await page.context().close();
 });
 
 test("each part that a newer version has replaced says so in one sentence and leads on; nothing is left uncaught, and slicing goes on", async () => {
-  const page = await (await browser.newContext(USUAL)).newPage();
+  const page = await take();
   let gone = /^never$/;
   await page.route(/\/assets\//, (route) => (gone.test(route.request().url()) ? route.fulfill({ status: 404 }) : route.continue()));
   const { complaints } = await visit(page, inject("address"));
@@ -106,7 +102,6 @@ test("each part that a newer version has replaced says so in one sentence and le
   await state(page, "empty");
   await page.locator("[popovertarget=saved]").click();
   await page.locator("cusp-saved .panel").first().waitFor();
-  await page.context().close();
 });
 
 declare global {
@@ -116,9 +111,10 @@ declare global {
   }
 }
 
-/** Runs before the page's own scripts: notes calls to workers, the element's states, and when the view wants to draw. */
+/** Runs before the page's own scripts: notes calls to workers, the element's states, and when the view wants to draw. By the address it saves data. */
 function note(): void {
   const seen: string[] = (window.seen = []);
+  if (location.search.includes("saves")) Object.defineProperty(navigator, "connection", { value: { saveData: true } });
   const { postMessage } = Worker.prototype;
   Worker.prototype.postMessage = function (message: { path?: string[] }, moved?: Transferable[] | StructuredSerializeOptions) {
     const call = message.path?.join(".") ?? "";
@@ -139,12 +135,10 @@ function note(): void {
 }
 
 /** A page that notes what happens, and the names of the scripts that it fetches. */
-async function noted(query = "", before: () => void = () => undefined): Promise<{ page: Page; scripts: string[] }> {
-  const page = await (await browser.newContext(USUAL)).newPage();
+async function noted(query = ""): Promise<{ page: Page; scripts: string[] }> {
+  const page = await take({ before: note });
   const scripts: string[] = [];
   page.on("request", (request) => scripts.push(request.url().split("/").at(-1) ?? ""));
-  await page.addInitScript(note);
-  await page.addInitScript(before);
   await visit(page, inject("address") + query);
   return { page, scripts };
 }
@@ -164,29 +158,24 @@ test("an idle page fetches the view and compiles a plan before there is a model;
   expect(order.indexOf("view")).toBeGreaterThan(order.indexOf("done"));
   // The worker that has read the model gives it to the view: no other reads it again.
   expect(order.filter((it) => it === "open" || it === "positions" || it === "boot")).toEqual(["boot", "open"]);
-  await page.context().close();
 
   const slow = await noted("?hangs");
   await drop(slow.page, ball);
   await expect.poll(() => seen(slow.page)).toContain("view");
   expect(await slow.page.locator("cusp-workbench").getAttribute("state")).toBe("busy");
-  await slow.page.context().close();
 });
 
 test("for whoever saves data, the view is fetched with the first model", async () => {
-  const { page, scripts } = await noted("", () => {
-    Object.defineProperty(navigator, "connection", { value: { saveData: true } });
-  });
+  const { page, scripts } = await noted("?saves");
   await expect.poll(() => seen(page)).toContain("rehearse");
   await page.waitForLoadState("networkidle");
   expect(scripts.filter((name) => name.startsWith("cusp-view"))).toEqual([]);
   await drop(page, ball);
   await expect.poll(() => scripts.some((name) => name.startsWith("cusp-view"))).toBe(true);
-  await page.context().close();
 });
 
 test("what the page loads before its 3-D view, beside the wasm, is at most 135 KB", async () => {
-  const { page } = await open(browser, inject("address"), { locale: "de-DE" });
+  const page = await start("?rays=512", { locale: "de-DE" });
   const sizes = await beforeView(page);
   await page.reload();
   await state(page, "empty");
@@ -195,5 +184,4 @@ test("what the page loads before its 3-D view, beside the wasm, is at most 135 K
   await page.waitForSelector(".u-over");
   expect(sizes.size).toBeGreaterThan(4);
   expect(whole(sizes), [...sizes].map(([name, size]) => `${name} ${size}`).join("\n")).toBeLessThanOrEqual(135_000);
-  await page.context().close();
 });
