@@ -1,11 +1,11 @@
-/** Many models in a row leave as much in memory as two: ten, or 500 by `npm run endurance`. */
+/** Many models in a row leave as much in memory as two: six, or 500 by `npm run endurance`. */
 import { expect, test } from "vitest";
 import { drop, openPanel, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 import { said, watchContexts, watchUsage, type Usage } from "./usage.js";
 
-const MODELS = process.env["ENDURANCE"] === undefined ? 10 : 500;
+const MODELS = process.env["ENDURANCE"] === undefined ? 6 : 500;
 /** After this many models, all that is made once exists: compiled code, workers, the view. */
 const WARM = 2;
 
@@ -18,7 +18,7 @@ const MODEL_BYTES = FACETS * 9 * 4;
 /** Slack of the page, for what the browser's compiler and caches take meanwhile: less than two models. */
 const HEAP_SLACK_BYTES = 2 * MODEL_BYTES;
 /** How often a worker's memory, which never shrinks, may grow: for pieces that fit in no hole. If models leaked, it would grow with each. */
-const CORE_GROWS = MODELS / 5;
+const CORE_GROWS = Math.ceil(MODELS / 5);
 /** A leaked model would hold some 600 nodes and 40 listeners. */
 const NODE_SLACK = 200;
 /** Ports that carried progress are freed only when the worker's own garbage collector runs. */
