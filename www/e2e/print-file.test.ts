@@ -65,7 +65,7 @@ test("a downloaded print file dropped again shows its settings and masks, and le
 });
 
 test("print files that are damaged say where and how, in the page's language, and what is whole of them can be looked at", async () => {
-  const page = await start();
+  const page = await start("?rays=512");
   const { bytes } = await sliced(page);
   const files = unzipSync(bytes);
   delete files["layers/00005.png"];
