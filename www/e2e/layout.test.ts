@@ -335,7 +335,7 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
 });
 
 test("forced colours reach the chart, and what is chosen or wrong is told without colour", async () => {
-  const page = await start("?rays=512", {});
+  const page = await start("?rays=512");
   await drop(page, ball);
   await state(page, "done");
   /** Pixels of the canvas in a system colour. */

@@ -21,7 +21,7 @@ const ballFile = { name: "ball.stl", bytes: ball.bytes };
 const start = pages();
 
 test("a dropped model is planned, looked through by keyboard, and its masks add up to its volume", async () => {
-  const page = await start();
+  const page = await start("?rays=512");
   await drop(page, ballFile);
   await state(page, "done");
 
@@ -79,7 +79,7 @@ function litPixels({ data, depth }: ReturnType<typeof decode>): number {
 
 test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: the plan is the same", async () => {
   const { bytes } = sphere(10, 48);
-  const page = await start("?rays=512", {});
+  const page = await start("?rays=512");
   const plans: number[] = [];
   const opened = async (name: string): Promise<void> => {
     await expect.poll(() => page.locator(".model-name").allInnerTexts()).toEqual([name]);
