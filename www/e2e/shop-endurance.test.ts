@@ -19,33 +19,33 @@ import { cup, prism, sealed, sphere } from "./solids.js";
 import { megabytes } from "./usage.js";
 
 const SECONDS = process.env["ENDURANCE"] === undefined ? 0 : 300;
+/** So many orders are taken before each kill. */
+const BEFORE_KILL = SECONDS === 0 ? 2 : 5;
 /** After so many orders all that is made once exists. */
 const WARM_ORDERS = 25;
 
 interface Kill {
   what: "cusp" | "shop";
   signal: "SIGKILL" | "SIGTERM";
-  /** So many orders are taken before. */
-  after: number;
 }
 
 /** What is killed in turn. */
 const KILLS: readonly [Kill, ...Kill[]] = [
-  { what: "cusp", signal: "SIGKILL", after: 5 },
-  { what: "cusp", signal: "SIGTERM", after: 5 },
-  { what: "shop", signal: "SIGTERM", after: 10 },
-  { what: "cusp", signal: "SIGKILL", after: 5 },
-  { what: "cusp", signal: "SIGTERM", after: 5 },
-  { what: "shop", signal: "SIGKILL", after: 10 },
+  { what: "cusp", signal: "SIGKILL" },
+  { what: "cusp", signal: "SIGTERM" },
+  { what: "shop", signal: "SIGTERM" },
+  { what: "cusp", signal: "SIGKILL" },
+  { what: "cusp", signal: "SIGTERM" },
+  { what: "shop", signal: "SIGKILL" },
 ];
 
 /** Kills in turn and starts the server anew, until the time is over and each kill had its turn. Returns how many there were. */
 async function kill(kills: readonly Kill[], shop: ShopProcess, customers: Customers, isOver: () => boolean): Promise<number> {
   let turn = 0;
   for (; turn < kills.length || !isOver(); turn++) {
-    const { what, signal, after } = kills[turn % kills.length] ?? KILLS[0];
+    const { what, signal } = kills[turn % kills.length] ?? KILLS[0];
     const before = customers.taken.size;
-    while (customers.taken.size < before + after) await wait(5);
+    while (customers.taken.size < before + BEFORE_KILL) await wait(5);
     if (what === "cusp") await shop.endCusp(signal);
     else {
       // Asked to end, it does so by itself, whatever customers do.
