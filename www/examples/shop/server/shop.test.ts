@@ -3,6 +3,7 @@ import { randomUUID } from "node:crypto";
 import { once } from "node:events";
 import { mkdir, open as openFile, readdir, readFile, readlink, rm, writeFile, type FileHandle } from "node:fs/promises";
 import { request as connect } from "node:http";
+import { connect as openSocket } from "node:net";
 import { join, relative } from "node:path";
 import { expect, test, vi } from "vitest";
 import { expectNoLeftovers, incoming, orders, ordersIn, printer, resin, send, shops, type Answer, type OpenShop, type Sent } from "../../../e2e/shop-open.js";
@@ -220,6 +221,13 @@ test("clients are known by the address that the web server appends, and by the n
   for (const address of ["2001:db8::1", "2001:DB8:0:0:1:2:3:4", "2001:db8::5:6:7:8"]) expect(client(address), address).toBe("2001:db8:0:0");
   expect(client("2001:db8:0:1::")).toBe("2001:db8:0:1");
   expect(client("::1")).toBe("0:0:0:0");
+});
+
+test("a connection that was opened in advance does not keep the shop open", async () => {
+  const { address, close } = await start("never called");
+  const socket = openSocket(Number(new URL(address).port));
+  await once(socket, "connect");
+  await close();
 });
 
 test("an address that is none is refused, and no fault of the shop", async () => {

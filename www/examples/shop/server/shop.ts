@@ -1,6 +1,7 @@
 /** The shop's server: its page, and one address to which orders are sent. */
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
+import type { Socket } from "node:net";
 import { join } from "node:path";
 import { LIMITS as PRINTABLE, MOST_BYTES, pricesOf, type PartName } from "../catalogue.js";
 import { clientOf } from "./client.js";
@@ -146,10 +147,19 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     });
   });
 
+  // Browsers open connections in advance, which Node takes for busy ones.
+  const unused = new Set<Socket>();
+  server.on("connection", (socket) => {
+    unused.add(socket);
+    socket.once("close", () => unused.delete(socket));
+  });
+  server.on("request", ({ socket }) => unused.delete(socket));
+
   return {
     listen: (port) => listen(server, port),
     close() {
       closing.abort();
+      for (const socket of unused) socket.destroy();
       return new Promise((resolve) => void server.close(() => resolve()));
     },
   };
