@@ -74,7 +74,7 @@ function meter(): void {
 const start = pages(SOFTWARE_GL);
 
 test("a large model is read, planned, drawn and saved beside the page, whose thread reads, copies and draws none of it", async () => {
-  const page = await start("?height=6", { viewport: { width: 1280, height: 400 }, before: meter });
+  const page = await start("?height=6", { viewport: { width: 1280, height: 400 }, deviceScaleFactor: 0.5, before: meter });
   await page.getByLabel(/Choose a file/).setInputFiles({ name: large.name, mimeType: "", buffer: Buffer.from(large.bytes) });
   await state(page, "done");
   await openPanel(page, "Mask");

@@ -776,7 +776,7 @@ const ready = async (page: Page): Promise<void> => {
 const printed = (page: Page): Promise<void> => page.getByRole("switch", { name: "As printed" }).click();
 
 test("for the printed look the view comes so near that steps can be told apart, and goes back to the chart's side", async () => {
-  const page = await start(WIDE);
+  const page = await start({ ...WIDE, deviceScaleFactor: 1 });
   await show(page, { layer_mm: 0.05, around: 256, hasPlot: true });
   const before = await canvas(page);
   await printed(page);
