@@ -8,7 +8,7 @@ import { sphere } from "./solids.js";
 const start = pages();
 
 // Enough facets and rays to observe each stage.
-const heavy = { name: "heavy.stl", bytes: sphere(10, 500).bytes };
+const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
 
 /** Presses Cancel as soon as the progress bar shows these words; runs in the page, so as not to be late. */
 async function cancelWhen(page: Page, stage: string): Promise<void> {
