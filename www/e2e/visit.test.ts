@@ -170,7 +170,7 @@ test("models are kept if the person allows it, opened again by keyboard, and del
 });
 
 test("a store of models that is full or fails keeps none, says so, and slicing goes on", async () => {
-  const page = await start("", {}, true);
+  const page = await start();
   const panel = page.locator("#recent cusp-recent");
   const notice = page.locator("#notice");
   await page.getByRole("button", { name: "Recent models" }).click();
