@@ -27,7 +27,7 @@ const LISTENER_SLACK = 100;
 const start = pages(SOFTWARE_GL);
 
 test("models in a row leave the memory where it was", async () => {
-  const page = await start("", { viewport: { width: 1280, height: 400 }, deviceScaleFactor: 0.5, before: watchContexts });
+  const page = await start("?rays=512", { viewport: { width: 1280, height: 400 }, deviceScaleFactor: 0.5, before: watchContexts });
   const usage = await watchUsage(page);
   const used: Usage[] = [];
   for (let i = 1; i <= MODELS; i++) {

@@ -4,11 +4,12 @@ import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/pr
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { afterEach, expect, test } from "vitest";
-import { drop, launch, layers, open, state } from "./browser.js";
+import { drop, layers, state, USUAL, visit } from "./browser.js";
 import { www } from "./package-apps.js";
 import { program } from "./program.js";
 import { freePort } from "./serve.js";
 import { sphere } from "./solids.js";
+import { tabs } from "./tabs.js";
 
 const guide = await readFile(join(www, "../docs/hosting.md"), "utf8");
 
@@ -148,12 +149,11 @@ for (const [name, server] of Object.entries(SERVERS)) {
     const bare = await fetch(address.slice(0, -1), { redirect: "manual" });
     expect([bare.status, new URL(bare.headers.get("location") ?? "", address).pathname]).toEqual([301, "/cusp/"]);
 
-    const browser = await launch();
-    closing.push(() => browser.close());
-    const { page, strangers, complaints } = await open(browser, address, { serviceWorkers: "allow" });
-    await drop(page, { name: "ball.stl", bytes: sphere(10, 96).bytes });
+    const { page, strangers, complaints } = await visit(await tabs().take({ ...USUAL, serviceWorkers: "allow" }), address);
+    closing.push(() => tabs().giveBack(false));
+    await drop(page, { name: "ball.stl", bytes: sphere(5, 48).bytes });
     await state(page, "done");
-    expect(await layers(page)).toBeGreaterThan(134);
+    expect(await layers(page)).toBeGreaterThan(67);
     expect(await page.evaluate(async () => (await navigator.serviceWorker.ready).scope)).toBe(address);
     expect([strangers, complaints]).toEqual([[], []]);
   });

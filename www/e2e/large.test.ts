@@ -4,10 +4,10 @@ import { download, openPanel, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
-const large = { name: "large.stl", bytes: sphere(10, 500).bytes };
-/** Options, names and handles. The positions alone are 9 MB. */
+const large = { name: "large.stl", bytes: sphere(10, 400).bytes };
+/** Options, names and handles. The positions alone are 6 MB. */
 const MESSAGES_BYTES = 10_000;
-/** Corners that may be drawn on the canvas itself. The model has three quarters of a million. */
+/** Corners that may be drawn on the canvas itself. The model has half a million. */
 const CORNERS = 100_000;
 
 interface Meter {

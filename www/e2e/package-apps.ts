@@ -104,7 +104,7 @@ export async function visit(browser: Browser, served: Served, look: (ran: Ran) =
   });
   try {
     await page.goto(served.address);
-    const ball = { name: "ball.stl", mimeType: "model/stl", buffer: Buffer.from(sphere(10, 96).bytes) };
+    const ball = { name: "ball.stl", mimeType: "model/stl", buffer: Buffer.from(sphere(4, 32).bytes) };
     await page.locator("cusp-slicer input[type=file]").first().setInputFiles(ball);
     await page.waitForSelector("cusp-slicer[state=done]", { timeout: 30_000 });
     await expect.poll(() => page.evaluate(() => customElements.get("cusp-view") !== undefined), { message: "cusp-view" }).toBe(true);

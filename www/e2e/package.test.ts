@@ -127,10 +127,9 @@ test("its types hold where nothing else is installed, in the markup of each fram
   await cp(join(www, "e2e/consumer/markup"), markup, { recursive: true });
   const [react, next] = [join(await component("React", "typed"), "src/Slicer.jsx"), join(await component("Next", "typed"), "app/page.jsx")];
   for (const [files, ...options] of [
-    [["react.tsx", react, next], "--allowJs", "--checkJs", "--jsx", "react-jsx"],
+    [["react.tsx", react, next, "vue.ts", "svelte.ts"], "--allowJs", "--checkJs", "--jsx", "react-jsx"],
     [["preact.tsx"], "--jsx", "react-jsx", "--jsxImportSource", "preact"],
     [["solid.tsx"], "--jsx", "preserve", "--jsxImportSource", "solid-js"],
-    [["vue.ts", "svelte.ts"]],
   ] as const) {
     expect(complaintsOf(markup, files, options), files.join()).toBe("");
   }

@@ -35,10 +35,9 @@ async function visit(address: string, options: TabOptions = {}): Promise<Page> {
   return page;
 }
 
-/** Opens a model and waits until it can be ordered; the sample unless one is given, which is planned sooner. */
-async function opened(page: Page, model?: Uint8Array): Promise<void> {
-  if (model === undefined) await page.getByRole("button", { name: "Try our goblet" }).click();
-  else await load(page, model);
+/** Opens a model and waits until it can be ordered. */
+async function opened(page: Page, model: Uint8Array): Promise<void> {
+  await load(page, model);
   await state(page, "done");
   await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
 }
@@ -185,13 +184,13 @@ async function fits(page: Page): Promise<void> {
 }
 
 test("what cannot be ordered the page says before, and why: an upload or a model that is too large, a sealed hollow; it fits light and wide or dark and narrow", async () => {
-  const open = await start("never called", { most_bytes: { plan: 1e6, model: 1e6, print: 1e7 } });
+  const open = await start("never called", { most_bytes: { plan: 1e6, model: 1e4, print: 1e7 } });
   const page = await visit(open.address, { reducedMotion: "reduce" });
   await fits(page);
-  await opened(page);
+  await opened(page, small);
   await fits(page);
   await press(page);
-  expect(await alert(page)).toBe("The model is larger than the 1 MB that this shop takes.");
+  expect(await alert(page)).toBe("The model is larger than the 0.01 MB that this shop takes.");
   expect(await orders(open)).toEqual([]);
   await expectNoLeftovers(open);
   await load(page, sealed(10, 2));
@@ -218,7 +217,7 @@ test("a check that fails is made again with the next choice, which no undo takes
     const value: typeof check = (limits) => document.body.dataset["fails"] === "" ? Promise.reject(new Error("out of memory")) : check.call(slicer, limits);
     Object.defineProperty(slicer, "check", { value });
   });
-  await load(page, small);
+  await page.getByRole("button", { name: "Try our goblet" }).click();
   const verdict = page.locator("#verdict p");
   await expect.poll(() => verdict.innerText()).toMatch(/^This could not be checked here\./);
   expect(await page.locator("#order").isDisabled()).toBe(true);

@@ -656,17 +656,18 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
 test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all languages", async () => {
   const page = await start({ viewport: { width: 2000, height: 500 } });
   for (const locale of LANGUAGES) {
+    await show(page, { locale, hasPlot: true });
+    await page.evaluate(() => (window.harness.panel.rotation = [1, 0, 0, 0]));
     // The widths at which names appear are the tightest.
     for (const width of [260, 560, 992, 1728]) {
-      // The chart at its side takes 8 rem.
-      await show(page, { locale, hasPlot: true, style: { width: `${width + 128}px` } });
-      await page.evaluate(async () => {
-        window.harness.panel.rotation = [1, 0, 0, 0];
-        await window.harness.panel.updateComplete;
-      });
-      const found = await page.evaluate(() => {
-        const bar = window.harness.panel.shadowRoot?.querySelector<HTMLElement>(".bar");
-        if (!bar) throw new Error("there is no bar");
+      const found = await page.evaluate(async (width) => {
+        const { panel, drawn } = window.harness;
+        const frame = document.querySelector<HTMLElement>(".frame");
+        const bar = panel.shadowRoot?.querySelector<HTMLElement>(".bar");
+        if (!bar || !frame) throw new Error("there is no bar");
+        // The chart at its side takes 8 rem.
+        frame.style.width = `${width + 128}px`;
+        await drawn();
         const targets = [...bar.querySelectorAll<HTMLElement>("label, button")].map((it) => it.getBoundingClientRect());
         const { left, right } = bar.getBoundingClientRect();
         return {
@@ -676,7 +677,7 @@ test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all 
           isInside: targets.every((it) => it.left >= left && it.right <= right),
           least: Math.min(...targets.flatMap((it) => [it.width, it.height])),
         };
-      });
+      }, width);
       const at = `${locale} at ${width}`;
       expect(found, at).toMatchObject({ width, switches: 4, isInside: true });
       expect(found.least, at).toBeGreaterThanOrEqual(36);
