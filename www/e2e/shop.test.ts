@@ -218,6 +218,9 @@ test("a check that fails is made again with the next choice, which no undo takes
     Object.defineProperty(slicer, "check", { value });
   });
   await page.getByRole("button", { name: "Try our goblet" }).click();
+  await expect.poll(() => page.evaluate(() => document.querySelector("cusp-slicer")?.model?.name)).toBe("goblet.stl");
+  // A smaller one is planned sooner.
+  await load(page, small);
   const verdict = page.locator("#verdict p");
   await expect.poll(() => verdict.innerText()).toMatch(/^This could not be checked here\./);
   expect(await page.locator("#order").isDisabled()).toBe(true);
