@@ -1,6 +1,6 @@
 //! The area of the shadow of a model on the plate.
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 
 use crate::model::Mesh;
 use crate::order::sort_by_number;
@@ -15,19 +15,21 @@ pub fn shadow_mm2(mesh: &Mesh) -> f64 {
     let bounds = mesh.printed_bounds();
     let (low, width) = (bounds.min.y, bounds.size().y / LINES as f64);
     // The line at y = low + (line + 1/2) · width.
-    let first_from = |y: f64| ((y - low) / width - 0.5).ceil().max(0.0) as usize;
+    let first_from = |y: f64| ((y - low) / width - 0.5).ceil().clamp(0.0, LINES as f64) as usize;
     let mut spans: Vec<Vec<[f64; 2]>> = vec![Vec::new(); LINES];
     for facet in 0..mesh.facets.len() {
-        let corners = mesh.corners(facet).map(|corner| corner.truncate());
+        let corners = mesh.corners(facet).map(DVec3::truncate);
         // The mesh is closed: what faces downward is in the shadow of what faces upward.
         if (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) <= 0.0 {
             continue;
         }
         let [from, to] = [DVec2::min, DVec2::max]
             .map(|most| corners[1..].iter().fold(corners[0], |a, b| most(a, *b)).y);
-        for line in first_from(from)..first_from(to).min(LINES) {
-            let y = low + (line as f64 + 0.5) * width;
-            spans[line].push(crossed(corners, y));
+        let lines = first_from(from)..first_from(to);
+        let start = lines.start;
+        for (line, spans) in spans[lines].iter_mut().enumerate() {
+            let y = low + ((start + line) as f64 + 0.5) * width;
+            spans.push(crossed(corners, y));
         }
     }
     let length = |mut spans: Vec<[f64; 2]>| {

@@ -142,7 +142,9 @@ fn check_plates(checking: &Checking, file: JobFile, limits: Limits) -> Result<()
         });
     }
     drop(bar);
-    reports.iter().for_each(|report| warn(&report.warnings));
+    for report in &reports {
+        warn(&report.warnings);
+    }
     let verdicts = plates.iter().map(|plate| plate.printability.verdict);
     let verdict = verdicts.max().unwrap_or(Verdict::Ok);
     if studying.json {
