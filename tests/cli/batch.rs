@@ -144,9 +144,9 @@ fn wrong_options_are_told_once_and_nothing_is_written() {
     let prints = folder_in(&folder, "prints");
     let (ball, slab) = (sphere(&folder), slab(&folder));
     let both = ["slice", &ball, &slab, "-o", &prints, "--layer-min", "0.2"];
-    assert_fails(&quick(&both), 1, "widen the range");
+    assert_fails(&quick(&both), 1, "is more than the greatest");
     let both = ["plan", &ball, &slab, "--layer-min", "0.2"];
-    assert_fails(&quick(&both), 1, "widen the range");
+    assert_fails(&quick(&both), 1, "is more than the greatest");
     assert!(files_in(&prints).is_empty());
 }
 

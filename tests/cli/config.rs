@@ -203,7 +203,7 @@ fn every_command_that_plans_takes_a_file_of_settings() {
             "contours" => arguments.extend(["-o", &outlines]),
             _ => {}
         }
-        assert_fails(&on_cpu(&arguments), 1, "widen the range");
+        assert_fails(&on_cpu(&arguments), 1, "is more than the greatest");
     }
 }
 

@@ -144,7 +144,7 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     assert_fails(
         &on_cpu(&["plan", &ball, "--layer-min", "0.2"]),
         1,
-        "widen the range",
+        "is more than the greatest",
     );
 }
 
