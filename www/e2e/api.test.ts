@@ -4,6 +4,7 @@ import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
 import type * as Api from "../src/api/index.js";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
+import { USUAL } from "./browser.js";
 import { serveApi } from "./packed.js";
 import type { Served } from "./serve.js";
 import { prism, sphere } from "./solids.js";
@@ -33,7 +34,7 @@ beforeAll(async () => {
 afterAll(() => served.close());
 
 beforeEach(async () => {
-  page = await own.take({});
+  page = await own.take(USUAL);
   page.on("pageerror", (error) => complaints.push(error.message));
   await page.goto(served.address);
   await page.waitForFunction(() => "api" in window);

@@ -7,7 +7,7 @@ import { findCusp } from "../examples/shop/cusp.js";
 import { pricesOf } from "../examples/shop/catalogue.js";
 import { FOLDERS, type Order } from "../examples/shop/server/store.js";
 import { broken } from "./axe.js";
-import { state } from "./browser.js";
+import { state, USUAL } from "./browser.js";
 import { prism, sealed, sphere } from "./solids.js";
 import { expectNoLeftovers, orders, printer, resin, shops } from "./shop-open.js";
 import { tabs, type TabOptions } from "./tabs.js";
@@ -29,7 +29,7 @@ function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_m
 }
 
 async function visit(address: string, options: TabOptions = {}): Promise<Page> {
-  const page = await own.take({ locale: "en-GB", viewport: { width: 1280, height: 900 }, ...options });
+  const page = await own.take({ ...USUAL, ...options });
   await page.goto(address);
   await state(page, "empty");
   return page;

@@ -5,6 +5,7 @@ import { expect, test } from "vitest";
 import type { Check } from "../src/api/index.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import type { Report } from "../src/api/wire.js";
+import { broken } from "./axe.js";
 import { downloaded, drop, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { floating } from "./solids.js";
@@ -128,7 +129,7 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   expect((await report(page)).supported?.points).toEqual(supported?.points);
 });
 
-test("by keyboard alone, with Tab and keys, a first visit gets through the steps to the file", async () => {
+test("by keyboard alone, with Tab and keys, a first visit gets through the steps to the file; its tour takes no focus", async () => {
   const page = await start("?backend=cpu&rays=512", { ...DESKTOP, reducedMotion: "reduce" });
   const press = async (target: Locator, key = "Enter", way: "Tab" | "Shift+Tab" = "Tab"): Promise<void> => {
     for (let i = 0; i < 80; i++) {
@@ -137,12 +138,18 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
     }
     throw new Error("Tab does not get there");
   };
+  await page.evaluate(() => localStorage.removeItem("cusp.tour"));
   await press(page.getByRole("button", { name: "Try the example" }));
   await state(page, "done");
+  const tour = page.getByRole("region", { name: "Short tour" });
+  await tour.waitFor();
+  expect(await broken(page)).toEqual([]);
   // The focus is for screen readers there: nothing can be done with a name, and a ring would only puzzle.
   expect(await page.evaluate(() => document.querySelector("cusp-workbench")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
   expect(await page.locator(".model-name").evaluate((it) => getComputedStyle(it).outlineStyle)).toBe("none");
   await page.getByRole("status").filter({ hasText: /layers planned/ }).waitFor();
+  await page.keyboard.press("Escape");
+  await tour.waitFor({ state: "detached" });
   const slider = page.getByRole("slider", { name: "Layer in the view" });
   await press(slider, "Home");
   await page.keyboard.press("PageUp");

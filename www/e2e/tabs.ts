@@ -74,6 +74,7 @@ async function empty(page: Page): Promise<void> {
   await devtools.send("Storage.clearDataForOrigin", { origin, storageTypes: "all" });
   await devtools.detach();
   await page.context().clearCookies();
+  await page.context().clearPermissions();
   // Away from what the next page shows there.
   await page.mouse.move(0, 0);
 }

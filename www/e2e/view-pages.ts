@@ -2,7 +2,7 @@
 import { decode } from "fast-png";
 import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
-import { SOFTWARE_GL } from "./browser.js";
+import { SOFTWARE_GL, USUAL } from "./browser.js";
 import { tabs, type TabOptions } from "./tabs.js";
 import type { Harness, Heard } from "./view-page/main.js";
 import { serveView } from "./view-serve.js";
@@ -33,7 +33,7 @@ export function viewPages(): (options?: TabOptions) => Promise<Page> {
 
   return async (options = {}) => {
     // Software draws a quarter of the pixels in a third of the time.
-    const usual = { locale: "en-GB", viewport: { width: 432, height: 448 }, deviceScaleFactor: 0.5, reducedMotion: "reduce" } as const;
+    const usual = { ...USUAL, viewport: { width: 432, height: 448 }, deviceScaleFactor: 0.5, reducedMotion: "reduce" } as const;
     const page = await own.take({ ...usual, ...options });
     page.on("pageerror", (error) => complaints.push(error.message));
     page.on("console", (message) => {
