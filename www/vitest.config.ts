@@ -6,8 +6,6 @@ const browsers = {
   globalSetup: "e2e/serve.ts",
   // Two browsers at a time: one leaves a quarter of two cores idle, since each test waits for the page and the page for it.
   maxWorkers: 2,
-  // One browser serves all files of a worker: a tab that has compiled the page opens it in half the time.
-  isolate: false,
   // Two cores are shared with browsers that draw in software: now and then one misses a moment that it is to be seen in.
   retry: 2,
   expect: { poll: { timeout: 20_000 } },
@@ -21,7 +19,8 @@ export default defineConfig({
     maxWorkers: "100%",
     projects: [
       { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },
-      { test: { ...browsers, name: "e2e", include: ["e2e/*.test.ts"] } },
+      // One browser serves all files of a worker: a tab that has compiled the page opens it in half the time.
+      { test: { ...browsers, name: "e2e", include: ["e2e/*.test.ts"], isolate: false } },
       { test: { ...browsers, name: "engines", include: ["e2e/engines/*.test.ts"] } },
     ],
   },
