@@ -42,11 +42,13 @@ export async function serve(folder = join(root, "dist")): Promise<Served> {
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const served = await serve();
   const scratch = await mkdtemp(join(tmpdir(), "cusp-e2e-"));
+  // Browsers end with their worker, and leave their profiles behind.
+  process.env["TMPDIR"] = scratch;
   project.provide("address", served.address);
   project.provide("scratch", scratch);
   return async () => {
     await served.close();
-    await rm(scratch, { recursive: true });
+    await rm(scratch, { recursive: true, maxRetries: 20 });
   };
 }
 
