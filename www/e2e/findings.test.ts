@@ -66,7 +66,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
     element.query = "rotation=1,0,0,0";
   });
   await settled(page);
-  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.findings.map(({ code }) => code))).not.toContain("cup");
+  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings.map(({ code }) => code))).not.toContain("cup");
   await expect.poll(() => found.count()).toBe(0);
   expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
 });
