@@ -171,7 +171,10 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
 
     // An error that concerns every model is reported once.
     for (how, words) in [
-        (["--layer-min", "0.2"], "cusp: the least layer thickness of 0.2 mm"),
+        (
+            ["--layer-min", "0.2"],
+            "cusp: the least layer thickness of 0.2 mm",
+        ),
         (["--printer", "none"], "cusp: there is no printer none"),
         (["--weights", &slab], "no file of weights"),
         (["--weights", &absent], "absent.stl: No such file"),

@@ -4,6 +4,8 @@
 
 #![cfg(target_arch = "wasm32")]
 
+#[cfg(not(feature = "reader"))]
+mod given;
 mod js;
 #[cfg(feature = "reader")]
 mod reader;

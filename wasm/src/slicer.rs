@@ -23,7 +23,8 @@ use tsify::{Ts, Tsify};
 use wasm_bindgen::JsCast;
 use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
-use crate::js::{self, thrown, to_js};
+use crate::given;
+use crate::js::{thrown, to_js};
 
 /// What every function here throws: the code and the typed details of an [`Error`], and one sentence that says what to do.
 ///
@@ -45,7 +46,7 @@ fn given<T: DeserializeOwned + Tsify>(value: &Ts<T>) -> Result<T, JsValue>
 where
     T::JsType: JsCast,
 {
-    js::read(&value.js_value()).map_err(|system| throw(OptionsError::Unreadable { system }))
+    given::read(&value.js_value()).map_err(|system| throw(OptionsError::Unreadable { system }))
 }
 
 /// Calls a JavaScript function with the stage, the fraction of the stage that is done, and the fraction of the whole task.
