@@ -104,7 +104,7 @@ fn prices_that_cannot_be_used_are_named() {
         "supports is 50, but must be from 0 to 10",
     );
     refuses(PRICES, &["--finish", "gilded"], "known are sanded");
-    // Nobody orders so many, and arranging them would not end.
+    // More copies than anybody orders: arranging them would not end.
     let many = format!("{ball}:99999999999");
     let prices = model(&folder, "prices.json", PRICES.as_bytes());
     let output = on_cpu(&["price", &many, "--prices", &prices, "--printer", "mars-4"]);

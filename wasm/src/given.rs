@@ -1,4 +1,4 @@
-//! What JavaScript gives: options, limits and prices.
+//! Options, limits and prices from JavaScript.
 
 use cusp_slicer::misnamed::with_nearest;
 use js_sys::{Array, ArrayBuffer, Object};

@@ -51,7 +51,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   expect((band?.height ?? 0) / (plot?.height ?? 1)).toBeCloseTo(6.5 / 8, 1);
   expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.mark?.bounds_mm[1][2])).toBeCloseTo(8, 1);
 
-  // By the limits of a shop, of whose verdict the page is told.
+  // With the limits of a shop, the page hears the verdict.
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     element.addEventListener("cusp-check", ({ detail }) => void (document.body.dataset["told"] = detail.verdict));
     element.limits = { severity: { cup: "reject" } };

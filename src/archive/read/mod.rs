@@ -72,7 +72,7 @@ pub struct PrintFile<'a> {
 /// The models that a file says it was made of.
 #[derive(Debug, Clone, Copy)]
 struct Stated {
-    /// That of the first model.
+    /// Pose of the first model.
     pose: Pose,
     copies: usize,
 }

@@ -29,15 +29,15 @@ pub struct Checking {
     show: usize,
 }
 
-/// What `check` prints of the plates of a job as JSON.
+/// The JSON of `check` for the plates of a job.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct CheckedPlates {
     /// The largest severity of all findings.
     verdict: Verdict,
-    /// What was found on each plate.
+    /// The findings on each plate.
     plates: Vec<CheckedPlate>,
-    /// What they were checked by.
+    /// The limits that they were checked by.
     limits: Limits,
 }
 

@@ -11,18 +11,18 @@ use crate::arrange::TURN_DEG;
 use crate::inspect::{self, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
 
-/// What will fail on a plate.
+/// Printability of a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PlatePrintability {
     /// The largest severity of all findings.
     pub verdict: Verdict,
-    /// What was found on each model.
+    /// The findings on each model.
     pub models: Vec<ModelPrintability>,
 }
 
-/// What will fail on a model of a plate. Copies that stand alike are all alike.
+/// Printability of a model on a plate. Copies that stand alike are all alike.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

@@ -112,11 +112,12 @@ impl PlateOptions {
                 });
             }
         }
-        let plates = self.placements.iter().map(|it| it.plate).max().unwrap_or(0);
-        let is_empty = |plate: &usize| !self.placements.iter().any(|it| it.plate == *plate);
-        match (0..plates.min(MOST_COPIES)).find(is_empty) {
-            Some(plate) => Err(ArrangeError::EmptyPlate {
-                plate_number: plate + 1,
+        let mut plates: Vec<usize> = self.placements.iter().map(|it| it.plate).collect();
+        plates.sort_unstable();
+        plates.dedup();
+        match (0..).zip(plates).find(|(number, plate)| number != plate) {
+            Some((number, _)) => Err(ArrangeError::EmptyPlate {
+                plate_number: number + 1,
             }),
             None => Ok(()),
         }

@@ -19,8 +19,9 @@ use crate::parallel;
 pub(super) struct Extent {
     /// In x, y and z.
     pub size_mm: [f64; 3],
-    /// Its shadow on the plate, in cells, and the area of that.
+    /// Its shadow on the plate, in cells.
     pub shadow: Outline,
+    /// The true area of the shadow.
     pub shadow_mm2: f64,
 }
 

@@ -156,7 +156,7 @@ impl Plate {
         Ok(to_js(&found.map_err(throw)?))
     }
 
-    /// What will fail when a plate, from 0, is printed, by these limits.
+    /// The printability of a plate, from 0, by these limits.
     ///
     /// # Errors
     /// Throws a `CuspError` if there is no plan or no such plate, or if a limit is out of bounds.

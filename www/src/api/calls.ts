@@ -47,7 +47,7 @@ export interface Life<Held> {
   readonly held: Held;
 }
 
-/** What a task throws to run again in a fresh worker. */
+/** Thrown by a task to run again in a fresh worker. */
 const OUTGROWN = Symbol("outgrown");
 
 /** Memory that is not worth a restart. */

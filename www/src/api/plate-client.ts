@@ -100,7 +100,7 @@ export class PlateClient {
     });
   }
 
-  /** What will fail when a plate of the last good plan is printed. */
+  /** The printability of a plate of the last good plan. */
   inspect(plate: number, limits: Limits, watch: Watch): Promise<PlatePrintability> {
     return this.#calls.run(watch, null, async (life, _, progress) => {
       await this.#restorePlan(life, silent);

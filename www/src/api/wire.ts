@@ -196,9 +196,9 @@ export interface PlateWorker {
   plateProblems(options: PlateOptions): ArrangeError[];
   planPlate(options: PlateOptions, progress: OnProgress): Promise<ProfiledPlates>;
   plateMask(plate: number, layer: number): Uint8Array;
-  /** The best plans of a plate of the last plan, for so many tolerances. */
+  /** The best plans of a plate of the last plan, for `points` tolerances. */
   tradeoffPlate(plate: number, points: number): Tradeoff;
-  /** What will fail when a plate of the last plan is printed. */
+  /** The printability of a plate of the last plan. */
   inspectPlate(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
   archivePlate(plate: number, progress: OnProgress): Blob;
 }
