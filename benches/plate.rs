@@ -12,7 +12,7 @@ mod solids;
 
 use common::{named, time};
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions, Slicer};
+use cusp_slicer::job::{Job, JobOptions, LoadedModel, ModelOptions, Options, Placement};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::printer::PrinterChoice;
 use glam::Vec3;
@@ -20,14 +20,14 @@ use glam::Vec3;
 /// A plate of 219 × 123 mm in pixels of 19 × 24 µm.
 const PRINTER: &str = "saturn-3-ultra";
 
-fn job(models: Vec<ModelOptions>) -> PlateOptions {
-    PlateOptions {
+fn job(models: Vec<ModelOptions>) -> JobOptions {
+    JobOptions {
         options: Options {
             printer: Some(PrinterChoice::Named(PRINTER.to_owned())),
             ..Options::default()
         },
         models,
-        ..PlateOptions::default()
+        ..JobOptions::default()
     }
 }
 
@@ -35,13 +35,13 @@ fn quiet(_: cusp_slicer::job::Stage, _: f64) -> std::ops::ControlFlow<()> {
     std::ops::ControlFlow::Continue(())
 }
 
-fn load(triangles: &solids::Triangles) -> Slicer {
-    Slicer::load(&solids::binary_stl(triangles)).expect("a model")
+fn load(triangles: &solids::Triangles) -> LoadedModel {
+    LoadedModel::read(&solids::binary_stl(triangles)).expect("a model")
 }
 
 /// Seconds to the plan and to the masks, from models that are read.
-fn seconds(models: &[solids::Triangles], options: &PlateOptions) -> [f64; 2] {
-    let read = || Plate::new(models.iter().map(load).collect());
+fn seconds(models: &[solids::Triangles], options: &JobOptions) -> [f64; 2] {
+    let read = || Job::new(models.iter().map(load).collect());
     let mut read_s = time(|| drop(read())).0;
     let (plan_s, ()) = time(|| {
         let mut plate = read();
@@ -105,17 +105,17 @@ fn main() {
         .into_iter()
         .chain(named().map(|(name, mesh)| (name, of(&mesh))))
     {
-        let options = PlateOptions {
+        let options = JobOptions {
             arranging: Arranging::default(),
             ..job(vec![ModelOptions {
                 copies: 50,
                 ..ModelOptions::default()
             }])
         };
-        let mut plate = Plate::new(vec![load(&triangles)]);
+        let mut plate = Job::new(vec![load(&triangles)]);
         let (seconds, places) = time(|| plate.arrange(&options));
         let plates = |places: &[Placement]| places.last().map_or(0, |place| place.plate + 1);
-        let boxed = Plate::new(vec![load(&box_of(&triangles))]).arrange(&options);
+        let boxed = Job::new(vec![load(&box_of(&triangles))]).arrange(&options);
         match (places, boxed) {
             (Ok(places), Ok(boxed)) => {
                 println!(

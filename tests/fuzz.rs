@@ -15,7 +15,7 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Backend, Options, Planner, PlateOptions, Slicer};
+use cusp_slicer::job::{Backend, JobOptions, Options, Planner, Slicer};
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::resin::Resin;
@@ -288,9 +288,9 @@ fn settings_of_all_kinds() -> Vec<(String, Vec<u8>)> {
         printer: Some("saturn-3-ultra".into()),
         ..Options::default()
     };
-    let job = PlateOptions {
+    let job = JobOptions {
         models: vec![cusp_slicer::job::ModelOptions::default(); 2],
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
     let prices = r#"{"currency":"EUR","setup":5,"machine_per_h":2.5,"resin_per_ml":0.2,"supports":0.3,"minimum":12,
         "finishes":[{"name":"sanded","per_copy":3,"per_ml":0.1}],"quantity_breaks":[{"copies":5,"discount":0.1}]}"#;

@@ -1,7 +1,7 @@
 //! Prices: closed forms, what holds for all of them, and the document that defines them.
 
 use crate::common::{binary_stl, quiet, solids};
-use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, Slicer};
+use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Slicer};
 use cusp_slicer::price::{Finish, Price, PriceError, PriceItem, PriceKind, Prices, QuantityBreak};
 
 const DOCUMENT: &str = include_str!("../docs/price.md");
@@ -349,14 +349,14 @@ fn copies_on_a_plate_are_priced_by_their_shares_of_its_time() {
     };
     let mut alone = model();
     let report = pollster::block_on(alone.plan(&options, &mut quiet)).unwrap();
-    let mut plate = Plate::new(vec![model()]);
-    let copies = |copies| PlateOptions {
+    let mut plate = Job::new(vec![model().into_model()]);
+    let copies = |copies| JobOptions {
         options: options.clone(),
         models: vec![ModelOptions {
             copies,
             ..ModelOptions::default()
         }],
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
     let one = pollster::block_on(plate.plan(&copies(1), &mut quiet)).unwrap();
     assert_eq!(one.price_items(), report.price_items(1));

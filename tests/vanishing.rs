@@ -2,7 +2,7 @@
 
 use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::{Code, Limits};
-use cusp_slicer::job::{Backend, ModelOptions, Options, Plate, PlateOptions, Report, Slicer};
+use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Report, Slicer};
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
 use cusp_slicer::resin::Resin;
 use cusp_slicer::warning::Warning;
@@ -158,8 +158,8 @@ fn balls_and_cylinders_lose_nothing_worth_a_word() {
 
 #[test]
 fn a_plate_sums_up_what_is_erased_of_its_copies() {
-    let mut plate = Plate::new(vec![load(&walls())]);
-    let options = PlateOptions {
+    let mut plate = Job::new(vec![load(&walls()).into_model()]);
+    let options = JobOptions {
         options: Options {
             pixels: Some([400, 300]),
             ..options(foot())
@@ -168,7 +168,7 @@ fn a_plate_sums_up_what_is_erased_of_its_copies() {
             copies: 3,
             ..ModelOptions::default()
         }],
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
     let report = pollster::block_on(plate.plan(&options, &mut quiet)).unwrap();
     let (_, _, area_mm2) = erased(&report.plates[0]).unwrap();

@@ -4,7 +4,7 @@ use std::fmt::Debug;
 use std::sync::LazyLock;
 
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Backend, Claim, Options, PlateOptions, Report, Slicer};
+use cusp_slicer::job::{Backend, Claim, JobOptions, Options, Report, Slicer};
 use cusp_slicer::model::{FileFacts, ModelFile};
 use cusp_slicer::price::{PriceItem, Prices};
 use cusp_slicer::printer::Printer;
@@ -25,7 +25,7 @@ pub fn settings(bytes: &[u8]) {
         // It resolves them.
         let _ = options.print_file().map_err(|error| error.to_string());
     }
-    read_twice::<PlateOptions>(text);
+    read_twice::<JobOptions>(text);
     if let Some(resin) = read_twice::<Resin>(text)
         && resin.check().is_ok()
     {

@@ -7,9 +7,8 @@ use glam::Vec3;
 use serde::Serialize;
 
 use super::parts::Output;
-use super::slicer::Slicer;
 use super::stage::StageProgress;
-use super::{Backend, Error, Options, Report, Snap};
+use super::{Backend, Error, Job, JobOptions, LoadedModel, Options, Report, Snap};
 use crate::archive::ArchiveError;
 use crate::format::{Format, FormatThicknesses};
 use crate::plan::HeightRange;
@@ -225,16 +224,18 @@ impl Calibration {
         writer: W,
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, Report), Error> {
-        let mut slicer = Slicer::load(&self.stl())?;
-        let report = slicer.plan(&self.options, progress).await?;
-        let mut exposure_s = report.exposure_s.clone();
+        let mut job = Job::new(vec![LoadedModel::read(&self.stl())?]);
+        let options = JobOptions::of(self.options.clone());
+        let mut exposure_s = job.plan(&options, progress).await?.plates[0]
+            .exposure_s
+            .clone();
         let layers = self.sections.iter();
         let layers = layers.flat_map(|section| std::iter::repeat_n(section, section.layers));
         for (layer, section) in exposure_s.iter_mut().zip(layers) {
             *layer = section.exposure_s.unwrap_or(*layer);
         }
-        slicer.expose(exposure_s);
-        let (writer, report) = slicer.write_archive(writer, progress)?;
+        job.expose(0, exposure_s)?;
+        let (writer, report) = job.write_archive(0, writer, progress)?;
         Ok((writer, report.clone()))
     }
 }

@@ -1,35 +1,38 @@
 //! Planners side by side.
 
 use super::parts::Thicknesses;
+use super::planned::PlannedModel;
 use super::planning::Planning;
 use super::stage::{Stage, StageProgress, report};
-use super::{Comparison, Error, Options, Planner, PlannerReport, Slicer, Timings};
+use super::{Comparison, Error, Job, JobOptions, Planner, PlannerReport};
 use crate::progress::Progress;
 
-impl Slicer {
-    /// Compares the plans of five planners, from the coarsest to the finest (table 3), and that of a thickness rule if the options
-    /// have one. The last plan is kept.
+impl Job {
+    /// Compares the plans of five planners for a plate, from the coarsest to the finest (table 3), and that of a thickness rule if the
+    /// options have one. The last plan is kept.
     ///
     /// # Errors
     /// Any [`Error`] of sampling and planning.
     pub async fn compare(
         &mut self,
-        options: &Options,
+        plate: usize,
+        options: &JobOptions,
         progress: &mut StageProgress<'_>,
     ) -> Result<Comparison, Error> {
-        let job = self.job(options)?;
-        let mut timings = Timings::default();
-        let measured = self.measure(&job, &mut timings, progress).await?;
+        let (models, layering) = self.measured_plate(plate, options, progress).await?;
         report(progress, Stage::Plan, 0.0)?;
-        let planning = Planning::of(&measured, &job.layering);
+        let parts: Vec<_> = models.iter().map(PlannedModel::part).collect();
+        let heights_mm = parts.iter().map(|part| part.height_mm);
+        let height_mm = heights_mm.fold(0.0, f64::max);
+        let planning = Planning::new(parts, &layering);
         let rows = planning.compare(&mut |fraction| progress(Stage::Plan, fraction))?;
         report(progress, Stage::Plan, 1.0)?;
-        let metric = job.layering.metric;
+        let facets = models.iter().map(|it| it.sampled().mesh().surface_facets);
         Ok(Comparison {
-            facets: measured.of.mesh().surface_facets,
-            height_mm: measured.of.height_mm,
-            metric,
-            unit: metric.unit().to_owned(),
+            facets: facets.sum(),
+            height_mm,
+            metric: layering.metric,
+            unit: layering.metric.unit().to_owned(),
             rows,
         })
     }

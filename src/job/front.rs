@@ -1,9 +1,10 @@
 //! The least sum of volume deviations beside the smallest maximum error: two ends of what layers of varying thickness can be
 //! planned for.
 
+use super::planned::PlannedModel;
 use super::planning::Planning;
 use super::stage::{Stage, StageProgress, report};
-use super::{Error, FrontPoint, Options, Slicer, SumAndMaximum, Timings};
+use super::{Error, FrontPoint, Job, JobOptions, SumAndMaximum};
 use crate::plan::optimal::{self, Objective};
 use crate::plan::preferred::SnapPlanes;
 use crate::plan::tradeoff::{self, Goal};
@@ -11,27 +12,26 @@ use crate::plan::{Limits, Plan, PlanError, least_sum};
 use crate::profile::{LayerErrors, Metric, Source};
 use crate::quantity::Quantity;
 
-impl Slicer {
-    /// The plans of the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers of layers
-    /// from the fewest to the most. The tolerance has no say. The last plan is kept.
+impl Job {
+    /// The plans of a plate with the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers
+    /// of layers from the fewest to the most. The tolerance has no say. The last plan is kept.
     ///
     /// # Errors
     /// Any [`Error`] of sampling and planning.
     pub async fn front(
         &mut self,
-        options: &Options,
+        plate: usize,
+        options: &JobOptions,
         points: usize,
         progress: &mut StageProgress<'_>,
     ) -> Result<Vec<FrontPoint>, Error> {
-        let mut job = self.job(options)?;
-        let mut timings = Timings::default();
-        // What is measured for volumes stays when the metric of the options is measured.
-        let metric = std::mem::replace(&mut job.layering.metric, Metric::Volume);
-        self.measure(&job, &mut timings, progress).await?;
-        job.layering.metric = metric;
-        let measured = self.measure(&job, &mut timings, progress).await?;
-        let planning = Planning::of(&measured, &job.layering);
-        planning.front(points, progress)
+        let mut by_volume = options.clone();
+        by_volume.options.metric = Metric::Volume;
+        // Areas that are measured for volumes stay when the metric of the options is measured.
+        self.measured_plate(plate, &by_volume, progress).await?;
+        let (models, layering) = self.measured_plate(plate, options, progress).await?;
+        let parts = models.iter().map(PlannedModel::part).collect();
+        Planning::new(parts, &layering).front(points, progress)
     }
 }
 

@@ -4,15 +4,15 @@ use std::sync::Arc;
 
 use crate::archive::{Canvas, GROUP};
 use crate::format::Format;
-use crate::mask::{LayerRuns, Masks, ReadPlace};
+use crate::mask::{LayerRuns, PlateMasks, PlateReadPlace};
 
 /// The share of the stage of masks that encoding takes, before the file is written.
 pub(super) const ENCODED_SHARE: f64 = 0.9;
 
 /// The masks of a plan, read group by group. Whatever becomes of the plan meanwhile, they stay.
 pub struct LayerGroups {
-    masks: Arc<Masks>,
-    place: ReadPlace,
+    masks: Arc<PlateMasks>,
+    place: PlateReadPlace,
     layers: usize,
     /// Layers that are not yet read.
     left: usize,
@@ -23,9 +23,14 @@ pub struct LayerGroups {
 }
 
 impl LayerGroups {
-    pub(super) fn new(masks: Arc<Masks>, layers: usize, format: Format, canvas: Canvas) -> Self {
+    pub(super) fn new(
+        masks: Arc<PlateMasks>,
+        layers: usize,
+        format: Format,
+        canvas: Canvas,
+    ) -> Self {
         Self {
-            place: ReadPlace::new(&masks),
+            place: PlateReadPlace::new(&masks),
             masks,
             layers,
             left: layers,

@@ -1,6 +1,8 @@
 //! A job: options are resolved once, then the stages run in order. The result of each is an immutable value.
 
 mod calibration;
+mod check;
+mod claimed;
 mod compare;
 mod convert;
 mod error;
@@ -8,21 +10,27 @@ mod facet_shapes;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
 mod groups;
+mod job_options;
+mod jobs;
+mod loaded;
 mod measured;
 mod memory;
 mod options;
 mod options_error;
 mod orient;
+mod outputs;
 mod parts;
+mod places;
 mod planned;
 mod planning;
-mod plate;
 mod prepared;
 mod price;
 mod print;
 mod report;
 mod resolve;
 mod sampled;
+mod shapes;
+mod shares;
 mod slicer;
 mod stage;
 mod tolerances;
@@ -31,21 +39,22 @@ mod verify;
 mod work;
 
 pub use calibration::{Calibration, Section};
+pub use check::{ModelPrintability, PlatePrintability};
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
 pub use groups::LayerGroups;
+pub use job_options::{JobOptions, ModelOptions, Placement};
+pub use jobs::Job;
+pub use loaded::LoadedModel;
 pub use options::*;
 pub use options_error::OptionsError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
-pub use plate::{
-    ModelOptions, ModelPrintability, Placement, Plate, PlateModelReport, PlateOptions,
-    PlatePrintability, PlateReport, PlatesReport,
-};
 pub use prepared::{Hollowed, Supported};
 pub use report::*;
 pub use resolve::BIN_MM;
+pub use shares::{JobReport, PlateModelReport, PlateReport};
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

@@ -3,11 +3,10 @@
 use serde::Serialize;
 
 use super::facet_shapes::{Extra, shapes_of};
-use super::parts::Job;
+use super::parts::Resolved;
 use super::planning::Planning;
-use super::slicer::Slicer;
 use super::stage::{Stage, StageProgress};
-use super::{Error, Options, SCHEMA};
+use super::{Error, LoadedModel, Options, SCHEMA};
 use crate::grid::{Bins, GridError};
 use crate::ldi::LdiError;
 #[cfg(not(target_arch = "wasm32"))]
@@ -54,12 +53,12 @@ pub type OrientationPart = shard::Part<Options>;
 struct Evaluator<'a> {
     model: &'a Mesh,
     surface: &'a Surface,
-    job: Job,
+    resolved: Resolved,
     /// Weights of facets, in the order of `surface`.
     weights: Option<Vec<f32>>,
 }
 
-impl Slicer {
+impl LoadedModel {
     /// Searches for the best orientation of the model. The rotation in the options is the current orientation. The search
     /// does not depend on it, unless the options give a height: the model is then scaled to have that height in the current
     /// orientation. The last plan is kept.
@@ -100,7 +99,7 @@ impl Slicer {
         progress: &mut StageProgress<'_>,
     ) -> Result<OrientationReport, Error> {
         let evaluator = self.evaluator(options, progress)?;
-        let mut now = evaluator.measure(evaluator.job.sampling.pose.up()?);
+        let mut now = evaluator.measure(evaluator.resolved.sampling.pose.up()?);
         let SearchResult {
             best,
             scale,
@@ -125,7 +124,7 @@ impl Slicer {
     /// # Errors
     /// [`Error::Mesh`].
     pub fn directions(&mut self, options: &Options, count: usize) -> Result<Vec<[f64; 3]>, Error> {
-        Ok(self.surface(&self.job(options)?)?.directions(count))
+        Ok(self.surface(&self.resolved(options)?)?.directions(count))
     }
 
     fn directions_of(
@@ -188,7 +187,7 @@ impl Slicer {
     ) -> Result<Search, Error> {
         let directions = self.directions_of(options, search)?;
         // Options that are invalid in every direction made every shard fail. Report that, rather than missing parts.
-        self.check_for_all_directions(&self.job(options)?)?;
+        self.check_for_all_directions(&self.resolved(options)?)?;
         let none = Shard {
             number: 0,
             count: 0,
@@ -213,9 +212,9 @@ impl Slicer {
         }
     }
 
-    fn surface(&mut self, job: &Job) -> Result<&Surface, Error> {
+    fn surface(&mut self, resolved: &Resolved) -> Result<&Surface, Error> {
         // The rotation matters only if there is a height to scale to.
-        let pose = job.sampling.pose;
+        let pose = resolved.sampling.pose;
         let scaled = match (pose.height_mm, pose.unit) {
             (Some(_), _) => Some(pose),
             (None, None) => None,
@@ -226,7 +225,7 @@ impl Slicer {
         };
         let surface = match self.surface.take().filter(|kept| kept.0 == scaled) {
             Some(kept) => kept,
-            None => (scaled, Surface::new(&self.model, self.scale(scaled)?)),
+            None => (scaled, Surface::new(&self.mesh, self.scale(scaled)?)),
         };
         Ok(&self.surface.insert(surface).1)
     }
@@ -240,19 +239,19 @@ impl Slicer {
             return Ok(pose.unit_mm());
         };
         // This call returns the error of an invalid height.
-        self.model.on_plate(&pose)?;
+        self.mesh.on_plate(&pose)?;
         let unscaled = Pose {
             height_mm: None,
             unit: None,
             ..pose
         };
-        let size = self.model.on_plate(&unscaled)?.bounds().size();
+        let size = self.mesh.on_plate(&unscaled)?.bounds().size();
         Ok(height_mm / size.z)
     }
 
     /// Checks for what is invalid in every direction. It is an error, not a reason to exclude a direction.
-    fn check_for_all_directions(&self, job: &Job) -> Result<(), Error> {
-        match job.sampling.grid(&self.model.bounds()) {
+    fn check_for_all_directions(&self, resolved: &Resolved) -> Result<(), Error> {
+        match resolved.sampling.grid(&self.mesh.bounds()) {
             Err(error) if exclusion(&error).is_none() => Err(error.into()),
             _ => Ok(()),
         }
@@ -263,17 +262,17 @@ impl Slicer {
         options: &Options,
         progress: &mut StageProgress<'_>,
     ) -> Result<Evaluator<'a>, Error> {
-        let job = self.job(options)?;
-        self.check_for_all_directions(&job)?;
-        self.surface(&job)?;
-        let weights = self.layering_weights(&job.layering, progress)?;
+        let resolved = self.resolved(options)?;
+        self.check_for_all_directions(&resolved)?;
+        self.surface(&resolved)?;
+        let weights = self.layering_weights(&resolved.layering, progress)?;
         let surface = &self.surface.as_ref().ok_or(Error::NoPlan)?.1;
         #[cfg(not(target_arch = "wasm32"))]
         parallel::keep_memory();
         Ok(Evaluator {
-            model: &self.model,
+            model: &self.mesh,
             surface,
-            job,
+            resolved,
             weights: weights.map(|weights| surface.arranged(&weights)),
         })
     }
@@ -307,7 +306,7 @@ impl Evaluator<'_> {
     }
 
     fn measure(&self, direction: [f64; 3]) -> Candidate {
-        let fits = |bounds: &Bounds| match self.job.sampling.grid(bounds) {
+        let fits = |bounds: &Bounds| match self.resolved.sampling.grid(bounds) {
             Err(error) => exclusion(&error).map_or(Ok(()), Err),
             Ok(_) => Ok(()),
         };
@@ -329,7 +328,7 @@ impl Evaluator<'_> {
 
     /// `None` if no plan keeps the tolerance.
     fn metrics(&self, placement: &Placement) -> Option<Metrics> {
-        let layering = &self.job.layering;
+        let layering = &self.resolved.layering;
         let height_mm = placement.size_mm[2];
         let bins = Bins::of_height(height_mm, layering.bin_mm).ok()?;
         let facet_bins = self.surface.facet_bins(placement, bins);
@@ -350,7 +349,7 @@ impl Evaluator<'_> {
             planning.max_error(&plan),
             plan.print_time_s(&layering.resin),
         ];
-        let supporting = self.job.sampling.supports.as_ref();
+        let supporting = self.resolved.sampling.supports.as_ref();
         let profile = supporting.map_or_else(SupportProfile::default, Supporting::profile);
         let weights = self.weights.as_deref();
         let surface = self.surface;

@@ -1,4 +1,4 @@
-//! The parts of a job: what each stage works from. They are comparable, so they are also the keys under which results are kept.
+//! Resolved options in parts: what each stage works from. They are comparable, so they are also the keys under which results are kept.
 
 use std::sync::Arc;
 
@@ -20,7 +20,7 @@ use crate::resin::Resin;
 
 /// Resolved options.
 #[derive(Debug, Clone, PartialEq)]
-pub(crate) struct Job {
+pub(crate) struct Resolved {
     pub sampling: Sampling,
     pub layering: Layering,
     pub output: Output,

@@ -10,9 +10,8 @@ use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
 use crate::ldi::LdiError;
 use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks, erased_mm2};
-use crate::plan::tradeoff::TradeoffPoint;
+use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
-use crate::plan::{Plan, PlanError};
 use crate::progress::{Cancelled, Progress};
 use crate::warning::Warning;
 
@@ -31,18 +30,12 @@ pub struct PlannedModel {
 }
 
 impl PlannedModel {
-    /// A model alone.
-    pub fn alone(measured: &Arc<Measured>) -> Self {
-        Self {
-            measured: Arc::clone(measured),
-            model: 0,
-            turns: 0,
-            tolerance: None,
-            copies: 1,
-        }
+    /// The model as if it stood alone.
+    pub fn part_alone(&self) -> Part<'_> {
+        Part::alone(self.measured.of.height_mm, &self.measured.shapes)
     }
 
-    fn part(&self) -> Part<'_> {
+    pub fn part(&self) -> Part<'_> {
         Part {
             height_mm: self.measured.of.height_mm,
             shapes: &self.measured.shapes,
@@ -91,15 +84,6 @@ impl Planned {
         let erased = planned.erased(&mut within).map_err(LdiError::from)?;
         planned.findings.warnings.extend(erased);
         Ok(planned)
-    }
-
-    /// The best plans of the same models for `points` tolerances: see [`Planning::tradeoff`].
-    ///
-    /// # Errors
-    /// [`PlanError`].
-    pub fn tradeoff(&self, points: usize) -> Result<Vec<TradeoffPoint>, PlanError> {
-        let parts = self.models.iter().map(PlannedModel::part).collect();
-        Planning::new(parts, &self.layering).tradeoff(points)
     }
 
     /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,

@@ -2,7 +2,6 @@
 
 use std::borrow::Cow;
 
-use super::measured::Measured;
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
 use super::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
@@ -80,11 +79,6 @@ pub struct Findings {
 }
 
 impl<'a> Planning<'a> {
-    /// For a sampled model.
-    pub fn of(measured: &'a Measured, layering: &'a Layering) -> Self {
-        Self::alone(measured.of.height_mm, &measured.shapes, layering)
-    }
-
     /// For the shapes of a model of this height.
     pub fn alone(height_mm: f64, shapes: &'a Shapes, layering: &'a Layering) -> Self {
         Self::new(vec![Part::alone(height_mm, shapes)], layering)

@@ -1,6 +1,6 @@
 //! What a plan asks for in a price.
 
-use super::{PlatesReport, Report};
+use super::{JobReport, Report};
 use crate::price::PriceItem;
 
 impl Report {
@@ -23,7 +23,7 @@ impl Report {
     }
 }
 
-impl PlatesReport {
+impl JobReport {
     /// What all copies on all plates need.
     pub fn price_items(&self) -> Vec<PriceItem> {
         let plates = self.plates.iter();

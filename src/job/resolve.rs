@@ -1,9 +1,9 @@
-//! Resolves options into a job: every default of metric, printer and format is settled and checked, once. No stage behind
+//! Resolves options: every default of metric, printer and format is settled and checked, once. No stage behind
 //! [`Options::resolve`] reads an option.
 
 use std::sync::Arc;
 
-use super::parts::{Filament, Job, Layering, Output, Raster, Sampling, Target, Thicknesses};
+use super::parts::{Filament, Layering, Output, Raster, Resolved, Sampling, Target, Thicknesses};
 use super::{Error, LAYERS_MM, Minimize, Options, OptionsError, Planner, Snap};
 use crate::filament::NOZZLES_MM;
 use crate::format::Format;
@@ -23,14 +23,14 @@ impl Options {
     ///
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`].
-    pub(crate) fn resolve(&self) -> Result<Job, Error> {
+    pub(crate) fn resolve(&self) -> Result<Resolved, Error> {
         self.settled().resolve_settled()
     }
 
-    fn resolve_settled(&self) -> Result<Job, Error> {
+    fn resolve_settled(&self) -> Result<Resolved, Error> {
         let printer = find_printer(self.printer.as_ref())?;
         let filament = self.check_filament(printer.as_deref())?;
-        Ok(Job {
+        Ok(Resolved {
             layering: self.layering(printer.as_deref())?,
             sampling: self.sampling(printer.as_deref())?,
             output: Output {
@@ -61,7 +61,10 @@ impl Options {
                     layer_min_mm: Some(layer_min_mm),
                     ..self.clone()
                 };
-                options.resolve().ok().map(|job| job.layering.bin_mm)
+                options
+                    .resolve()
+                    .ok()
+                    .map(|resolved| resolved.layering.bin_mm)
             };
             let bin_mm = bin_mm_at(self.settled().range_mm()[0]);
             *largest_mm = largest_mm.and_then(|largest_mm| {

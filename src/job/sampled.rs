@@ -6,8 +6,8 @@ use web_time::Instant;
 
 use super::memory::{Bound, Memory};
 use super::parts::Sampling;
-use super::prepared::{PREPARING_SHARE, Prepared, Supported};
-use super::stage::{Stage, StageProgress, ms_since};
+use super::prepared::{Prepared, Supported};
+use super::stage::ms_since;
 #[cfg(not(target_arch = "wasm32"))]
 use super::work;
 use super::{Backend, Error, GpuMethod, Timings};
@@ -112,35 +112,22 @@ impl Sampler {
         }
     }
 
-    /// Prepares the model, as far as `kept` is not that, and samples it. If the GPU fails, the CPU is used instead, unless `backend` requires the GPU.
+    /// Samples a model that is prepared. If the GPU fails, the CPU is used instead, unless the backend requires the GPU.
     ///
     /// # Errors
-    /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
+    /// [`Error::Grid`], [`Error::Ldi`], [`Error::MemoryBound`], [`Error::TimeBound`].
     pub async fn sample(
         &mut self,
-        model: &Mesh,
         sampling: &Sampling,
-        spared: Option<&[f32]>,
-        kept: Option<Arc<Prepared>>,
+        prepared: Arc<Prepared>,
         timings: &mut Timings,
-        progress: &mut StageProgress<'_>,
+        progress: &mut Progress<'_>,
     ) -> Result<Sampled, Error> {
-        let (prepared, begun) = match kept {
-            Some(kept) if kept.is_of(sampling, spared) => (kept, 0.0),
-            last => {
-                let begun = f64::from(u8::from(Prepared::takes_time(sampling))) * PREPARING_SHARE;
-                let mut within = |fraction| progress(Stage::Ldi, begun * fraction);
-                let last = last.as_deref();
-                let prepared = Prepared::new(model, sampling, spared, last, timings, &mut within)?;
-                (Arc::new(prepared), begun)
-            }
-        };
         let clock = Instant::now();
         let grid = prepared.grid(sampling)?;
         let mesh = &prepared.mesh;
         let printed = prepared.printed;
         let mut warnings = prepared.warnings.clone();
-        let mut ldi_progress = |fraction| progress(Stage::Ldi, begun + (1.0 - begun) * fraction);
         let rays = grid.refined(sampling.samples.rays()).around_model(&printed);
         rays.check_rays()?;
         #[cfg(not(target_arch = "wasm32"))]
@@ -153,7 +140,7 @@ impl Sampler {
         };
         let mut on_gpu = None;
         if bound.is_none() && self.wants_gpu(sampling.backend, mesh.facets.len(), rays.pixels()) {
-            let found = self.sample_on_gpu(mesh, &rays, sampling, &mut ldi_progress);
+            let found = self.sample_on_gpu(mesh, &rays, sampling, progress);
             match found.await {
                 Ok(found) => on_gpu = Some(found),
                 Err(error @ LdiError::Cancelled(_)) => return Err(error.into()),
@@ -165,14 +152,14 @@ impl Sampler {
             (Some((ldi, gpu)), _) => (Hits::Kept(ldi), Some(gpu)),
             (None, Some(bound)) => (Hits::Anew(bound), None),
             (None, None) => {
-                let ldi = cpu::sample(mesh, &rays, &mut ldi_progress)?;
+                let ldi = cpu::sample(mesh, &rays, progress)?;
                 (Hits::Kept(ldi), None)
             }
         };
         let image = hits.image(mesh, rays);
         let survey = match &hits {
             Hits::Kept(_) => Survey::of(image, &mut silent),
-            Hits::Anew(_) => Survey::of(image, &mut ldi_progress),
+            Hits::Anew(_) => Survey::of(image, progress),
         };
         let survey = survey.map_err(LdiError::from)?;
         if survey.hits == 0 {

@@ -4,10 +4,10 @@
 use serde::{Deserialize, Serialize, Serializer};
 use serde_json::Value;
 
-use super::plate::ClaimedPlate;
+use super::claimed::ClaimedPlate;
 use super::report::OF_THE_MACHINE;
 use super::stage::StageProgress;
-use super::{Error, Options, Plate, Report, SCHEMA};
+use super::{Error, Job, Options, Report, SCHEMA};
 use crate::model::ModelFile;
 use crate::model::read::ReadOptions;
 use crate::warning::Warning;
@@ -214,10 +214,10 @@ impl Claim {
     /// Plans the plate again, on a plate of the job's models. Its plan is then the only one.
     ///
     /// # Errors
-    /// Those of [`Plate::plan`].
+    /// Those of [`Job::plan`].
     pub async fn plan_again<'a>(
         &self,
-        models: &'a mut Plate,
+        models: &'a mut Job,
         progress: &mut StageProgress<'_>,
     ) -> Result<&'a Report, Error> {
         let plate = self.plate.as_ref();

@@ -18,7 +18,7 @@ use std::ops::Range;
 
 pub(crate) use columns::Until;
 pub(crate) use erased::erased_mm2;
-pub use plate::{PlateMasks, PlateRuns, Stamp};
+pub use plate::{PlateMasks, PlateReadPlace, PlateRuns, Stamp};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
 pub use shrink::Shrinking;

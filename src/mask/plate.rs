@@ -3,7 +3,7 @@
 //! Copies stand whole pixels apart, so they share rays, changes and runs: a layer of a model is read once, and its runs are
 //! moved to each place.
 
-use super::{LayerRuns, MaskCursor, Masks, Run, RunReader, RunSource, row_bytes};
+use super::{LayerRuns, MaskCursor, Masks, ReadPlace, Run, RunReader, RunSource, row_bytes};
 use crate::grid::Grid;
 use crate::order::sort_by_number;
 use crate::parallel;
@@ -27,6 +27,14 @@ pub struct PlateMasks {
 }
 
 impl PlateMasks {
+    /// The masks of a single copy in the middle, which are those of the screen.
+    fn alone(&self) -> Option<&Masks> {
+        let [stamp] = &self.stamps[..] else {
+            return None;
+        };
+        (stamp.offsets == [[0, 0]]).then_some(&stamp.masks)
+    }
+
     /// Their runs.
     pub fn runs(&self) -> PlateRuns<'_> {
         let stamps = self.stamps.iter();
@@ -40,6 +48,10 @@ impl PlateMasks {
 
     /// The mask of a layer: see [`MaskCursor::whole`]. `cursors` are those of the stamps, and are moved to the layer.
     pub fn whole(&self, cursors: &mut [MaskCursor], layer: usize) -> Vec<u8> {
+        if let (Some(masks), [cursor]) = (self.alone(), &mut *cursors) {
+            cursor.seek(masks, layer);
+            return cursor.whole(masks);
+        }
         let row_bytes = row_bytes(&self.grid);
         let mut whole = vec![0; row_bytes * self.grid.height as usize];
         for (stamp, cursor) in self.stamps.iter().zip(cursors) {
@@ -109,6 +121,11 @@ pub struct PlateRuns<'a> {
 
 impl RunSource for PlateRuns<'_> {
     fn reader(&self) -> Box<dyn RunReader + '_> {
+        if let [(alone, offsets)] = &self.stamps[..]
+            && *offsets == [[0, 0]]
+        {
+            return alone.reader();
+        }
         let readers = self.stamps.iter().map(|(runs, _)| runs.reader());
         Box::new(Reader {
             plate: self,
@@ -125,17 +142,43 @@ struct Reader<'a> {
 impl RunReader for Reader<'_> {
     /// Cost: linear in the runs of all copies, and in rows times the copies that cross them.
     fn next(&mut self, layers: usize) -> LayerRuns {
-        let alone: Vec<LayerRuns> = self
-            .readers
-            .iter_mut()
-            .map(|reader| reader.next(layers))
-            .collect();
-        let plate = self.plate;
-        LayerRuns::new(parallel::map((0..layers).collect(), |layer| {
-            let runs = alone.iter().map(|runs| runs.of_layer(layer).collect());
-            plate.stamped(&runs.collect::<Vec<_>>())
-        }))
+        let readers = self.readers.iter_mut();
+        let alone: Vec<LayerRuns> = readers.map(|reader| reader.next(layers)).collect();
+        let offsets: Vec<_> = self.plate.stamps.iter().map(|stamp| &stamp.1[..]).collect();
+        stamped(self.plate.grid.width, &offsets, &alone, layers)
     }
+}
+
+/// How far the masks of a plate have been read.
+pub struct PlateReadPlace(Vec<ReadPlace>);
+
+impl PlateReadPlace {
+    /// At the first layer.
+    pub fn new(masks: &PlateMasks) -> Self {
+        let stamps = masks.stamps.iter();
+        Self(stamps.map(|stamp| ReadPlace::new(&stamp.masks)).collect())
+    }
+
+    /// The runs of the next layers of the same masks: see [`RunReader::next`].
+    pub fn next(&mut self, masks: &PlateMasks, layers: usize) -> LayerRuns {
+        if let (Some(alone), [place]) = (masks.alone(), &mut self.0[..]) {
+            return place.next(alone, layers);
+        }
+        let stamps = masks.stamps.iter().zip(&mut self.0);
+        let alone: Vec<LayerRuns> = stamps
+            .map(|(stamp, place)| place.next(&stamp.masks, layers))
+            .collect();
+        let offsets: Vec<_> = masks.stamps.iter().map(|it| &it.offsets[..]).collect();
+        stamped(masks.grid.width, &offsets, &alone, layers)
+    }
+}
+
+/// The runs of layers of a screen this wide, given the places of each model's copies and its runs alone.
+fn stamped(width: u32, offsets: &[&[[i32; 2]]], alone: &[LayerRuns], layers: usize) -> LayerRuns {
+    LayerRuns::new(parallel::map((0..layers).collect(), |layer| {
+        let runs = alone.iter().map(|runs| runs.of_layer(layer).collect());
+        stamped_layer(width, offsets, &runs.collect::<Vec<_>>())
+    }))
 }
 
 /// The runs of a copy that are still to be placed.
@@ -154,55 +197,52 @@ impl Copy<'_> {
     }
 }
 
-impl PlateRuns<'_> {
-    /// The runs of a layer, given those of each model alone.
-    fn stamped(&self, alone: &[Vec<Run>]) -> Vec<Run> {
-        let width = self.grid.width;
-        let mut waiting: Vec<Copy<'_>> = Vec::new();
-        for ((_, offsets), runs) in self.stamps.iter().zip(alone) {
-            waiting.extend(offsets.iter().map(|&[right, down]| Copy {
-                runs,
-                offset: i64::from(down) * i64::from(width) + i64::from(right),
-            }));
+/// The same of one layer.
+fn stamped_layer(width: u32, offsets: &[&[[i32; 2]]], alone: &[Vec<Run>]) -> Vec<Run> {
+    let mut waiting: Vec<Copy<'_>> = Vec::new();
+    for (offsets, runs) in offsets.iter().zip(alone) {
+        waiting.extend(offsets.iter().map(|&[right, down]| Copy {
+            runs,
+            offset: i64::from(down) * i64::from(width) + i64::from(right),
+        }));
+    }
+    waiting.retain(|copy| !copy.runs.is_empty());
+    // The copy that begins lowest in the list begins highest on the screen.
+    sort_by_number(&mut waiting, |copy| {
+        copy.next().map_or(0.0, |next| -f64::from(next))
+    });
+    let mut placed = Vec::with_capacity(waiting.iter().map(|copy| copy.runs.len()).sum());
+    let mut crossing: Vec<Copy<'_>> = Vec::new();
+    loop {
+        let next = |copies: &[Copy<'_>]| copies.iter().filter_map(Copy::next).min();
+        let soonest = next(&crossing)
+            .into_iter()
+            .chain(waiting.last().and_then(Copy::next));
+        let Some(first) = soonest.min() else {
+            return placed;
+        };
+        let row_end = (first / width + 1) * width;
+        while waiting
+            .last()
+            .is_some_and(|copy| copy.next() < Some(row_end))
+        {
+            crossing.extend(waiting.pop());
         }
-        waiting.retain(|copy| !copy.runs.is_empty());
-        // The copy that begins lowest in the list begins highest on the screen.
-        sort_by_number(&mut waiting, |copy| {
-            copy.next().map_or(0.0, |next| -f64::from(next))
-        });
-        let mut placed = Vec::with_capacity(waiting.iter().map(|copy| copy.runs.len()).sum());
-        let mut crossing: Vec<Copy<'_>> = Vec::new();
-        loop {
-            let next = |copies: &[Copy<'_>]| copies.iter().filter_map(Copy::next).min();
-            let soonest = next(&crossing)
-                .into_iter()
-                .chain(waiting.last().and_then(Copy::next));
-            let Some(first) = soonest.min() else {
-                return placed;
-            };
-            let row_end = (first / width + 1) * width;
-            while waiting
-                .last()
-                .is_some_and(|copy| copy.next() < Some(row_end))
-            {
-                crossing.extend(waiting.pop());
-            }
-            let row_start = placed.len();
-            for copy in &mut crossing {
-                let in_row = |run: &Run| i64::from(run.first) + copy.offset < i64::from(row_end);
-                let count = copy.runs.partition_point(in_row);
-                let (row, rest) = copy.runs.split_at(count);
-                placed.extend(row.iter().map(|run| Run {
-                    first: (i64::from(run.first) + copy.offset) as u32,
-                    ..*run
-                }));
-                copy.runs = rest;
-            }
-            crossing.retain(|copy| !copy.runs.is_empty());
-            let row = &mut placed[row_start..];
-            if !row.is_sorted_by_key(|run| run.first) {
-                row.sort_unstable_by_key(|run| run.first);
-            }
+        let row_start = placed.len();
+        for copy in &mut crossing {
+            let in_row = |run: &Run| i64::from(run.first) + copy.offset < i64::from(row_end);
+            let count = copy.runs.partition_point(in_row);
+            let (row, rest) = copy.runs.split_at(count);
+            placed.extend(row.iter().map(|run| Run {
+                first: (i64::from(run.first) + copy.offset) as u32,
+                ..*run
+            }));
+            copy.runs = rest;
+        }
+        crossing.retain(|copy| !copy.runs.is_empty());
+        let row = &mut placed[row_start..];
+        if !row.is_sorted_by_key(|run| run.first) {
+            row.sort_unstable_by_key(|run| run.first);
         }
     }
 }

@@ -52,20 +52,36 @@ fn models_and_copies_are_sliced_into_one_print_file() {
 }
 
 #[test]
-fn one_model_arranged_gives_the_print_file_that_it_gives_alone() {
+fn one_copy_arranged_is_reported_as_several_are_and_printed_as_alone() {
     let folder = TempDir::new().unwrap();
     let slab = slab(&folder);
+    // This format has no manifest, which tells a plate.
     let (alone, arranged) = (
-        path_in(&folder, "alone.zip"),
-        path_in(&folder, "arranged.zip"),
+        path_in(&folder, "alone.goo"),
+        path_in(&folder, "arranged.goo"),
     );
-    assert!(small(&["slice", &slab, "-o", &alone]).status.success());
-    assert!(
-        small(&["slice", &slab, "--arrange", "-o", &arranged])
-            .status
-            .success()
-    );
+    let sliced = |rest: &[&str]| {
+        let output = small(&[&["slice", &slab, "--format", "goo"], rest].concat());
+        assert!(output.status.success());
+        output
+    };
+    sliced(&["-o", &alone]);
+    let one = parsed(&sliced(&["--arrange", "--json", "-o", &arranged]));
     assert!(std::fs::read(alone).unwrap() == std::fs::read(arranged).unwrap());
+    let two = parsed(&sliced(&[
+        "--arrange",
+        "--copies",
+        "2",
+        "--json",
+        "-o",
+        &path_in(&folder, "two.goo"),
+    ]));
+    let keys = |report: &Value| {
+        let plate = report["plates"][0]["plate"].as_object().unwrap();
+        plate.keys().cloned().collect::<Vec<_>>()
+    };
+    assert_eq!(keys(&one), keys(&two));
+    assert_eq!(one["plates"][0]["plate"]["models"][0]["copies"], 1);
 }
 
 #[test]

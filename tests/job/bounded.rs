@@ -5,7 +5,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::growth::Growth;
 use cusp_slicer::job::{
-    Backend, ModelOptions, Options, Planner, Plate, PlateOptions, Report, Slicer, Work,
+    Backend, Job, JobOptions, ModelOptions, Options, Planner, Report, Slicer, Work,
 };
 use cusp_slicer::ldi::visibility::visibility;
 use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
@@ -149,8 +149,8 @@ fn metrics_of_areas_and_weights_are_measured_anew() {
 #[test]
 fn a_plate_of_models_and_copies_is_the_same() {
     let models = [crowd(), solids::cube(6.0)];
-    let plate = || Plate::new(models.iter().map(|it| load(it)).collect());
-    let job = PlateOptions {
+    let plate = || Job::new(models.iter().map(|it| load(it).into_model()).collect());
+    let job = JobOptions {
         options: Options {
             pixels: Some([2400, 1200]),
             ..options()
@@ -161,9 +161,9 @@ fn a_plate_of_models_and_copies_is_the_same() {
                 ..ModelOptions::default()
             })
             .to_vec(),
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
-    let sliced = |mut plate: Plate| {
+    let sliced = |mut plate: Job| {
         pollster::block_on(plate.plan(&job, &mut quiet)).unwrap();
         let (file, report) = plate.write_archive(0, Vec::new(), &mut quiet).unwrap();
         (without_times(report), file, plate.mask(0, 0))
@@ -274,10 +274,10 @@ fn what_takes_too_long_is_named_before_it_is_done() {
         Work::Layers
     );
     let plates = |options: Options| {
-        let mut plate = Plate::new(vec![load(&ball)]).with_cpu_time(1e-4);
-        let options = PlateOptions {
+        let mut plate = Job::new(vec![load(&ball).into_model()]).with_cpu_time(1e-4);
+        let options = JobOptions {
             options,
-            ..PlateOptions::default()
+            ..JobOptions::default()
         };
         pollster::block_on(plate.plan(&options, &mut quiet)).map(|_| ())
     };

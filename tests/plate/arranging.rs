@@ -1,7 +1,7 @@
 //! Where copies stand: apart from each other, on the plate, and on the fewest plates.
 
 use cusp_slicer::arrange::{ArrangeError, Arranging};
-use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
+use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement};
 use glam::Vec3;
 
 use super::{job, options, pixels, placed, plan, plate, supported};
@@ -10,7 +10,7 @@ use crate::common::solids;
 /// For each plate and model, the pixels that it lights in any layer, found from the masks of the plate with nothing else on it.
 fn shadows(
     models: &[&solids::Triangles],
-    options: &PlateOptions,
+    options: &JobOptions,
     found: &[Placement],
 ) -> Vec<Vec<[i64; 2]>> {
     found
@@ -82,7 +82,7 @@ fn arranged_copies_are_as_far_apart_as_asked_and_on_their_plate() {
         (1.0, 15, [0, 0, 0, 4]),
         (2.0, 15, [4, 8, 4, 0]),
     ] {
-        let options = PlateOptions {
+        let options = JobOptions {
             arranging: Arranging {
                 spacing_mm,
                 turn_deg,
@@ -134,7 +134,7 @@ fn supports_count_when_copies_are_arranged() {
     };
     let ball = solids::sphere(3.0, 3);
     let models = [&tee, &ball];
-    let options = PlateOptions {
+    let options = JobOptions {
         arranging: Arranging {
             spacing_mm: 1.0,
             turn_deg: 15,
@@ -172,7 +172,7 @@ fn plates_of(
     spacing_mm: f64,
     turn_deg: u32,
 ) -> usize {
-    let options = PlateOptions {
+    let options = JobOptions {
         arranging: Arranging {
             spacing_mm,
             turn_deg,
@@ -246,7 +246,7 @@ fn a_plate_that_cannot_be_arranged_says_why() {
     assert_eq!(code(of(Options::default(), 2)), "plate-without-size");
     assert_eq!(code(of(options(), 0)), "plate-empty");
     assert_eq!(
-        code(Plate::new(Vec::new()).arrange(&job(options(), &[]))),
+        code(Job::new(Vec::new()).arrange(&job(options(), &[]))),
         "plate-empty"
     );
     let high = Options {
@@ -259,7 +259,7 @@ fn a_plate_that_cannot_be_arranged_says_why() {
         (f64::NAN, 0, "bad-spacing"),
         (1.0, 50, "bad-turn"),
     ] {
-        let options = PlateOptions {
+        let options = JobOptions {
             arranging: Arranging {
                 spacing_mm,
                 turn_deg,
@@ -378,7 +378,7 @@ fn models_have_poses_of_their_own() {
         copies: 2,
         ..ModelOptions::default()
     };
-    let options = PlateOptions {
+    let options = JobOptions {
         models: vec![upright, ModelOptions::default()],
         ..job(options(), &[])
     };

@@ -3,7 +3,7 @@
 use std::io::Cursor;
 
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{ModelOptions, Options, Placement, PlateOptions};
+use cusp_slicer::job::{JobOptions, ModelOptions, Options, Placement};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::printer::PrinterChoice;
 
@@ -15,7 +15,7 @@ use cusp_slicer::prepare::Supporting;
 use glam::Vec3;
 
 /// The print file of a plate.
-fn archive(plate: &mut cusp_slicer::job::Plate, number: usize) -> Vec<u8> {
+fn archive(plate: &mut cusp_slicer::job::Job, number: usize) -> Vec<u8> {
     let (writer, _) = plate
         .write_archive(number, Cursor::new(Vec::new()), &mut quiet)
         .unwrap();
@@ -70,7 +70,7 @@ fn turned_copies_have_the_same_supports() {
         y_mm: 0.0,
         turn_deg,
     };
-    let options = PlateOptions {
+    let options = JobOptions {
         placements: vec![at(-9.0, 0), at(4.0, 45), at(14.0, 90)],
         ..job(supported(), &[3])
     };
@@ -88,8 +88,8 @@ fn turned_copies_have_the_same_supports() {
     // What is drawn of each copy.
     let shown = slicer.positions_of(FacetClass::Support);
     assert!(!shown.is_empty());
-    assert_eq!(several.supports(0).unwrap(), shown);
-    assert!(several.supports(1).is_err());
+    assert_eq!(several.positions_of(0, FacetClass::Support).unwrap(), shown);
+    assert!(several.positions_of(1, FacetClass::Support).is_err());
     // By hand they are for one model, whose frame is known.
     let by_hand = Options {
         supports: Some(Supporting {
@@ -118,7 +118,7 @@ fn what_the_only_model_says_of_itself_counts_like_an_option() {
         layer_min_mm: 0.05,
         layer_max_mm: 0.05,
     };
-    let of_model = PlateOptions {
+    let of_model = JobOptions {
         options: options(),
         models: vec![ModelOptions {
             height_mm: Some(5.0),
@@ -126,7 +126,7 @@ fn what_the_only_model_says_of_itself_counts_like_an_option() {
             ranges: vec![range],
             ..ModelOptions::default()
         }],
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
     let of_options = Options {
         height_mm: Some(5.0),
@@ -163,7 +163,7 @@ fn the_masks_of_a_plate_are_those_of_its_models_moved_to_their_places() {
             place(1, 12.0, -7.3),
             place(0, -8.0, -10.0),
         ];
-        let options = PlateOptions {
+        let options = JobOptions {
             placements: placements.clone(),
             ..job(shared.clone(), &[3, 1])
         };
@@ -225,7 +225,7 @@ fn the_print_file_of_a_plate_has_the_masks_that_it_shows() {
     };
     for mirror in [false, true] {
         let mut both = plate(&[&ball, &frame]);
-        let options = PlateOptions {
+        let options = JobOptions {
             models: vec![own(4.0), own(3.0)],
             ..job(
                 Options {

@@ -6,9 +6,7 @@ mod sharing;
 
 use crate::common::{load, quiet, solids};
 use cusp_slicer::Error;
-use cusp_slicer::job::{
-    Backend, ModelOptions, Options, Placement, Plate, PlateOptions, PlatesReport,
-};
+use cusp_slicer::job::{Backend, Job, JobOptions, JobReport, ModelOptions, Options, Placement};
 use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};
 
 /// Options with a screen of 40 × 30 mm in pixels of 0.1 mm.
@@ -36,25 +34,30 @@ fn supported() -> Options {
     }
 }
 
-fn plate(models: &[&solids::Triangles]) -> Plate {
-    Plate::new(models.iter().map(|model| load(model)).collect())
+fn plate(models: &[&solids::Triangles]) -> Job {
+    Job::new(
+        models
+            .iter()
+            .map(|model| load(model).into_model())
+            .collect(),
+    )
 }
 
 /// A job of these numbers of copies.
-fn job(options: Options, copies: &[usize]) -> PlateOptions {
+fn job(options: Options, copies: &[usize]) -> JobOptions {
     let models = copies.iter().map(|&copies| ModelOptions {
         copies,
         ..ModelOptions::default()
     });
-    PlateOptions {
+    JobOptions {
         options,
         models: models.collect(),
-        ..PlateOptions::default()
+        ..JobOptions::default()
     }
 }
 
 /// The same with copies at these places and no others.
-fn placed(options: &PlateOptions, placements: &[Placement]) -> PlateOptions {
+fn placed(options: &JobOptions, placements: &[Placement]) -> JobOptions {
     let mut options = options.clone();
     for (model, own) in options.models.iter_mut().enumerate() {
         own.copies = placements.iter().filter(|it| it.model == model).count();
@@ -63,7 +66,7 @@ fn placed(options: &PlateOptions, placements: &[Placement]) -> PlateOptions {
     options
 }
 
-fn plan(plate: &mut Plate, options: &PlateOptions) -> Result<PlatesReport, Error> {
+fn plan(plate: &mut Job, options: &JobOptions) -> Result<JobReport, Error> {
     pollster::block_on(plate.plan(options, &mut quiet))
 }
 

@@ -2,7 +2,7 @@
 
 use cusp_slicer::Error;
 use cusp_slicer::arrange::shadow_mm2;
-use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions, Slicer};
+use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement, Slicer};
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;
@@ -63,7 +63,7 @@ fn no_model_of_a_plate_exceeds_its_own_tolerance_and_each_alone_needs_fewer_laye
     let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 11.0, 16));
     for own in [None, Some(0.03), Some(0.12)] {
         let mut both = plate(&[&ball, &cone]);
-        let options = PlateOptions {
+        let options = JobOptions {
             models: vec![
                 ModelOptions::default(),
                 ModelOptions {
@@ -119,7 +119,7 @@ fn advice(error: Error) -> (Option<usize>, f64, f64) {
 #[test]
 fn the_advice_on_a_tolerance_that_cannot_be_kept_works_in_the_figures_of_whom_it_names() {
     let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 11.0, 16));
-    let of = |own: [Option<f64>; 2], tolerance: f64, thicknesses_mm: &[f64]| PlateOptions {
+    let of = |own: [Option<f64>; 2], tolerance: f64, thicknesses_mm: &[f64]| JobOptions {
         models: own
             .map(|tolerance| ModelOptions {
                 tolerance,
@@ -228,7 +228,7 @@ fn the_plan_does_not_depend_on_the_number_of_copies() {
     let peg = solids::cuboid(Vec3::new(0.7, 0.7, 1.03));
     pegged.extend(solids::moved(&peg, Vec3::new(3.0, 3.0, 3.0)));
     let mut many = plate(&[&pegged]);
-    let of = |many: &mut Plate, copies| plan(many, &job(options(), &[copies])).unwrap();
+    let of = |many: &mut Job, copies| plan(many, &job(options(), &[copies])).unwrap();
     let one = of(&mut many, 1).plates[0].z_mm.clone();
     for copies in [2, 3, 5] {
         assert_eq!(of(&mut many, copies).plates[0].z_mm, one, "{copies}");
@@ -240,13 +240,17 @@ fn copies_have_the_curve_of_one_and_several_models_a_slower_one() {
     let (ball, cone) = (solids::sphere(3.0, 4), solids::cone(3.0, 5.0, 8));
     let mut alone = load(&ball);
     let curve = pollster::block_on(alone.tradeoff(&options(), 9, &mut quiet)).unwrap();
+    let of = |plate: &mut Job, number, copies: &[usize]| {
+        pollster::block_on(plate.tradeoff(number, &job(options(), copies), 9, &mut quiet))
+    };
     let mut copies = plate(&[&ball]);
-    plan(&mut copies, &job(options(), &[3])).unwrap();
-    assert_eq!(copies.tradeoff(0, 9).unwrap(), curve);
-    assert_eq!(copies.tradeoff(1, 9).unwrap_err().code(), "no-such-plate");
+    assert_eq!(of(&mut copies, 0, &[3]).unwrap(), curve);
+    assert_eq!(
+        of(&mut copies, 1, &[3]).unwrap_err().code(),
+        "no-such-plate"
+    );
     let mut both = plate(&[&ball, &cone]);
-    plan(&mut both, &job(options(), &[1, 1])).unwrap();
-    for point in both.tradeoff(0, 9).unwrap().points {
+    for point in of(&mut both, 0, &[1, 1]).unwrap().points {
         let mut limited = options();
         limited.tolerance = Some(point.tolerance);
         let report = plan(&mut both, &job(limited, &[1, 1])).unwrap();
@@ -258,7 +262,7 @@ fn copies_have_the_curve_of_one_and_several_models_a_slower_one() {
 fn copies_are_bounded_and_agree_with_their_places() {
     let cube = solids::cube(3.0);
     let mut many = plate(&[&cube]);
-    let code = |many: &mut Plate, options: &PlateOptions| plan(many, options).unwrap_err().code();
+    let code = |many: &mut Job, options: &JobOptions| plan(many, options).unwrap_err().code();
     for copies in [10_001, usize::MAX] {
         assert_eq!(
             code(&mut many, &job(options(), &[copies])),
@@ -274,7 +278,7 @@ fn copies_are_bounded_and_agree_with_their_places() {
         y_mm: 0.0,
         turn_deg: 0,
     };
-    let placed = |copies, placements: &[Placement]| PlateOptions {
+    let placed = |copies, placements: &[Placement]| JobOptions {
         placements: placements.to_vec(),
         ..job(options(), &[copies])
     };
@@ -299,7 +303,7 @@ fn height_ranges_of_models_are_joined() {
         ..ModelOptions::default()
     };
     let mut both = plate(&[&cube, &cube]);
-    let mut options = PlateOptions {
+    let mut options = JobOptions {
         models: vec![
             own(vec![range(1.0, 4.0, 0.05, 0.1)]),
             own(vec![range(3.0, 6.0, 0.08, 0.15)]),
@@ -334,7 +338,7 @@ fn a_change_of_places_repeats_neither_rays_nor_plan() {
     let first = plan(&mut two, &options).unwrap();
     let mut placements = first.plates[0].plate.as_ref().unwrap().placements.clone();
     placements[0].x_mm -= 5.0;
-    let moved = PlateOptions {
+    let moved = JobOptions {
         placements,
         ..options
     };

@@ -3,7 +3,7 @@
 use std::ops::ControlFlow;
 
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Error, Options, OptionsError, Plate, PlateOptions, Slicer, Stage};
+use cusp_slicer::job::{Error, Job, JobOptions, Options, OptionsError, Slicer, Stage};
 use cusp_slicer::ldi::LdiError;
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, SupportStrength, Supporting};
 use cusp_slicer::profile::{Metric, Source};
@@ -214,14 +214,14 @@ fn slicers_of_filament_printers_hollow_by_themselves() {
 
 #[test]
 fn holes_by_hand_are_for_a_model_alone() {
-    let cubes = vec![load(&solids::cube(10.0)), load(&solids::cube(12.0))];
+    let cubes = [10.0, 12.0].map(|side_mm| load(&solids::cube(side_mm)).into_model());
     let drain = Drain {
         at_mm: [5.0, 0.0, 5.0],
         direction: [-1.0, 0.0, 0.0],
         diameter_mm: 2.0,
         depth_mm: None,
     };
-    let on_plate = |drains| PlateOptions {
+    let on_plate = |drains| JobOptions {
         options: Options {
             pixels: Some([400, 400]),
             ..hollowed(Hollowing {
@@ -233,9 +233,9 @@ fn holes_by_hand_are_for_a_model_alone() {
                 ..Hollowing::default()
             })
         },
-        ..PlateOptions::default()
+        ..JobOptions::default()
     };
-    let mut plate = Plate::new(cubes);
+    let mut plate = Job::new(cubes.into());
     let error = pollster::block_on(plate.plan(&on_plate(vec![drain]), &mut quiet)).unwrap_err();
     assert!(matches!(
         error,

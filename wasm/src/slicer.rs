@@ -1,14 +1,15 @@
 //! The slicer in the browser. Errors are those of [`cusp_slicer::job::Error`].
 
-mod plate;
-
 use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::{self, ArchiveError, Canvas};
+use cusp_slicer::arrange::Arranging;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{self, Calibration, Error, Options, OptionsError, Stage};
+use cusp_slicer::job::{
+    self, Calibration, Error, JobOptions, LoadedModel, Options, OptionsError, Placement, Stage,
+};
 use cusp_slicer::mask::LayerRuns;
 use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
 use cusp_slicer::model::{FacetClass, weights};
@@ -64,10 +65,12 @@ fn progress_to(callback: &Function) -> impl FnMut(Stage, f64) -> ControlFlow<()>
     }
 }
 
-/// A loaded model. A change of options repeats only what depends on it.
+/// Models that are printed together, or one alone. Models are counted from 0 in their order, and so are plates. A change of options
+/// repeats only what depends on it.
 #[wasm_bindgen]
-pub struct Slicer {
-    slicer: job::Slicer,
+#[derive(Default)]
+pub struct Job {
+    job: job::Job,
     preview_density: Vec<f32>,
 }
 
@@ -99,7 +102,13 @@ pub fn defaults() -> JsValue {
     to_js(&Options::default().settled())
 }
 
-/// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several slicers with
+/// How copies are arranged if nothing else is asked for.
+#[wasm_bindgen(unchecked_return_type = "Required<Arranging>")]
+pub fn default_arranging() -> JsValue {
+    to_js(&Arranging::default())
+}
+
+/// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several jobs with
 /// the same model and options may run its tasks.
 #[wasm_bindgen]
 pub struct OrientationSearch {
@@ -142,7 +151,7 @@ impl OrientationSearch {
         to_js(&self.search.next_tasks(most))
     }
 
-    /// Accepts the candidates of a task, one per direction, as [`Slicer::evaluate`] returns them. Tasks may be accepted in any order.
+    /// Accepts the candidates of a task, one per direction, as [`Job::evaluate`] returns them. Tasks may be accepted in any order.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -172,8 +181,14 @@ impl OrientationSearch {
 }
 
 #[wasm_bindgen]
-impl Slicer {
-    /// Reads an STL, a 3MF or an OBJ.
+impl Job {
+    /// A job without models.
+    #[wasm_bindgen(constructor)]
+    pub fn new() -> Job {
+        Self::default()
+    }
+
+    /// Reads an STL, a 3MF or an OBJ, and adds it after the other models.
     ///
     /// # Errors
     /// Throws a `CuspError` if the bytes are not a usable model.
@@ -181,65 +196,94 @@ impl Slicer {
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    #[wasm_bindgen(constructor)]
-    pub fn new(file: &[u8], options: Ts<ReadOptions>) -> Result<Slicer, JsValue> {
+    pub fn add(&mut self, file: &[u8], options: Ts<ReadOptions>) -> Result<(), JsValue> {
         let options = given(&options)?;
-        let slicer = job::Slicer::load_with(file, &options).map_err(throw)?;
-        Ok(Self {
-            slicer,
-            preview_density: Vec::new(),
-        })
+        let model = LoadedModel::read_with(file, &options).map_err(throw)?;
+        self.job.add(model);
+        Ok(())
     }
 
-    /// Vertex positions of the surface facets, nine numbers per facet, in millimetres, in the file's frame.
-    pub fn positions(&self) -> Vec<f32> {
-        self.slicer.positions()
+    /// Number of models.
+    pub fn models(&self) -> usize {
+        self.job.models().len()
     }
 
-    /// Vertex positions of the last plan's supports, nine numbers per facet, in millimetres from the plate; none without supports.
-    pub fn supports(&self) -> Vec<f32> {
-        self.slicer.positions_of(FacetClass::Support)
-    }
-
-    /// Vertex positions of the walls of the last plan's void, likewise; none of a solid model.
-    pub fn voids(&self) -> Vec<f32> {
-        self.slicer.positions_of(FacetClass::Void)
-    }
-
-    /// Vertex positions of a plug for each drain hole of the last plan, likewise, in a row on the plate; none without holes.
-    pub fn plugs(&self) -> Vec<f32> {
-        self.slicer.plug_positions()
-    }
-
-    /// The saliency of each facet, 0 to 1: how much it stands out.
+    /// Removes a model. The indices of those after it become one less.
     ///
     /// # Errors
-    /// Throws a `CuspError` if it is cancelled, which `progress` cannot do.
+    /// Throws a `CuspError` if there is no such model.
+    pub fn remove(&mut self, model: usize) -> Result<(), JsValue> {
+        self.job.remove(model).map(|_| ()).map_err(throw)
+    }
+
+    /// Vertex positions of the surface facets of a model, nine numbers per facet, in millimetres, in the file's frame.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn positions(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        Ok(self.job.model(model).map_err(throw)?.positions())
+    }
+
+    /// Vertex positions of a model's supports in the last plan, nine numbers per facet, in millimetres from the plate, for a copy
+    /// that is not turned; none without supports.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn supports(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        let supports = self.job.positions_of(model, FacetClass::Support);
+        supports.map_err(throw)
+    }
+
+    /// Vertex positions of the walls of a model's void in the last plan, likewise; none of a solid model.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn voids(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        let voids = self.job.positions_of(model, FacetClass::Void);
+        voids.map_err(throw)
+    }
+
+    /// Vertex positions of a plug for each drain hole of a model in the last plan, likewise, in a row on the plate; none without
+    /// holes.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
+    pub fn plugs(&self, model: usize) -> Result<Vec<f32>, JsValue> {
+        self.job.plug_positions(model).map_err(throw)
+    }
+
+    /// The saliency of each facet of a model, 0 to 1: how much it stands out.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
     pub fn saliency(
         &mut self,
+        model: usize,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: &Function,
     ) -> Result<Vec<f32>, JsValue> {
-        let saliency = self.slicer.saliency(&mut progress_to(progress));
+        let model = self.job.model_mut(model).map_err(throw)?;
+        let saliency = model.saliency(&mut progress_to(progress));
         Ok(saliency.map_err(throw)?.to_vec())
     }
 
-    /// Sets a weight from 0 to 1 for each facet, or removes all weights. Later plans and previews use them.
+    /// Sets a weight from 0 to 1 for each facet of a model, or removes all weights. Later plans and previews use them.
     ///
     /// # Errors
     /// Throws a `CuspError`.
-    pub fn set_weights(&mut self, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
-        self.slicer.set_weights(weights).map_err(throw)
+    pub fn set_weights(&mut self, model: usize, weights: Option<Vec<f32>>) -> Result<(), JsValue> {
+        let model = self.job.model_mut(model).map_err(throw)?;
+        model.set_weights(weights).map_err(throw)
     }
 
-    /// These weights as a file for this model.
+    /// These weights as a file for a model.
     ///
     /// # Errors
     /// Throws a `CuspError` unless there is a weight from 0 to 1 for every facet.
-    pub fn weights_file(&self, weights: &[f32]) -> Result<Vec<u8>, JsValue> {
-        let corners = self.slicer.positions();
+    pub fn weights_file(&self, model: usize, weights: &[f32]) -> Result<Vec<u8>, JsValue> {
+        let corners = self.positions(model)?;
         weights::check(weights, corners.len() / 9).map_err(throw)?;
         Ok(weights::to_bytes(weights, &corners))
     }
@@ -248,11 +292,11 @@ impl Slicer {
     ///
     /// # Errors
     /// Throws a `CuspError`.
-    pub fn read_weights(&self, file: &[u8]) -> Result<Vec<f32>, JsValue> {
-        weights::from_bytes(file, &self.slicer.positions()).map_err(throw)
+    pub fn read_weights(&self, model: usize, file: &[u8]) -> Result<Vec<f32>, JsValue> {
+        weights::from_bytes(file, &self.positions(model)?).map_err(throw)
     }
 
-    /// Plans the model in its pose from the facets alone, in a few milliseconds: fast enough to follow a rotation live. The
+    /// Plans a model in its pose from the facets alone, in a few milliseconds: fast enough to follow a rotation live. The
     /// last plan is kept.
     ///
     /// # Errors
@@ -262,14 +306,15 @@ impl Slicer {
         reason = "values from JavaScript come by value"
     )]
     #[wasm_bindgen(unchecked_return_type = "Preview")]
-    pub fn preview(&mut self, options: Ts<Options>) -> Result<JsValue, JsValue> {
+    pub fn preview(&mut self, model: usize, options: Ts<Options>) -> Result<JsValue, JsValue> {
         let options = given(&options)?;
-        let (preview, profile) = self.slicer.preview(&options).map_err(throw)?;
+        let model = self.job.model(model).map_err(throw)?;
+        let (preview, profile) = model.preview(&options).map_err(throw)?;
         self.preview_density = profile.density;
         Ok(to_js(&preview))
     }
 
-    /// A search over directions spread evenly, the axes, and the normals of the model's largest flats.
+    /// A search over directions spread evenly, the axes, and the normals of a model's largest flats.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -279,12 +324,14 @@ impl Slicer {
     )]
     pub fn search(
         &mut self,
+        model: usize,
         options: Ts<Options>,
         search: Ts<SearchOptions>,
     ) -> Result<OrientationSearch, JsValue> {
         let options = given(&options)?;
         let search = given(&search)?;
-        let search = self.slicer.search(&options, &search);
+        let model = self.job.model_mut(model).map_err(throw)?;
+        let search = model.search(&options, &search);
         search
             .map(|search| OrientationSearch { search })
             .map_err(throw)
@@ -300,6 +347,7 @@ impl Slicer {
     )]
     pub fn evaluate(
         &mut self,
+        model: usize,
         options: Ts<Options>,
         directions: &[f64],
     ) -> Result<Vec<f64>, JsValue> {
@@ -309,7 +357,8 @@ impl Slicer {
             number: 0,
             directions: directions.to_vec(),
         };
-        let result = self.slicer.evaluate(&options, task).map_err(throw)?;
+        let model = self.job.model_mut(model).map_err(throw)?;
+        let result = model.evaluate(&options, task).map_err(throw)?;
         Ok(pack(result.candidates.iter().map(Some)))
     }
 
@@ -318,41 +367,72 @@ impl Slicer {
         self.preview_density.clone()
     }
 
-    /// Describes the model in the frame of its file.
+    /// Describes a model in the frame of its file.
+    ///
+    /// # Errors
+    /// Throws a `CuspError` if there is no such model.
     #[wasm_bindgen(unchecked_return_type = "MeshInfo")]
-    pub fn info(&self) -> JsValue {
-        to_js(&self.slicer.info())
+    pub fn info(&self, model: usize) -> Result<JsValue, JsValue> {
+        Ok(to_js(&self.job.model(model).map_err(throw)?.info()))
     }
 
-    /// Plans the layers.
+    /// Where copies stand when they are arranged.
     ///
     /// # Errors
     /// Throws a `CuspError`.
-    #[wasm_bindgen(unchecked_return_type = "Report")]
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "Placement[]")]
+    pub fn arrange(&mut self, options: Ts<JobOptions>) -> Result<JsValue, JsValue> {
+        let options = given(&options)?;
+        Ok(to_js(&self.job.arrange(&options).map_err(throw)?))
+    }
+
+    /// What is wrong with the placements of the options: copies that extend beyond their plate, and copies that overlap.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[expect(
+        clippy::needless_pass_by_value,
+        reason = "values from JavaScript come by value"
+    )]
+    #[wasm_bindgen(unchecked_return_type = "ArrangeError[]")]
+    pub fn problems(&mut self, options: Ts<JobOptions>) -> Result<JsValue, JsValue> {
+        let options = given(&options)?;
+        let placements: &[Placement] = &options.placements;
+        let problems = self.job.problems(&options, placements);
+        Ok(to_js(&problems.map_err(throw)?))
+    }
+
+    /// Plans the layers of all plates.
+    ///
+    /// # Errors
+    /// Throws a `CuspError`.
+    #[wasm_bindgen(unchecked_return_type = "JobReport")]
     pub async fn plan(
         &mut self,
-        options: Ts<Options>,
+        options: Ts<JobOptions>,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
         progress: Function,
     ) -> Result<JsValue, JsValue> {
         let options = given(&options)?;
-        let report = self
-            .slicer
-            .plan(&options, &mut progress_to(&progress))
-            .await;
-        Ok(to_js(report.map_err(throw)?))
+        let report = self.job.plan(&options, &mut progress_to(&progress)).await;
+        Ok(to_js(&report.map_err(throw)?))
     }
 
-    /// The best plans for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
+    /// The best plans of a plate for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
     ///
     /// # Errors
     /// Throws a `CuspError`.
     #[wasm_bindgen(unchecked_return_type = "Tradeoff")]
     pub async fn tradeoff(
         &mut self,
-        options: Ts<Options>,
+        plate: usize,
+        options: Ts<JobOptions>,
         points: usize,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
@@ -361,18 +441,19 @@ impl Slicer {
     ) -> Result<JsValue, JsValue> {
         let options = given(&options)?;
         let mut progress = progress_to(&progress);
-        let curve = self.slicer.tradeoff(&options, points, &mut progress).await;
-        Ok(to_js(&curve.map_err(throw)?))
+        let curve = self.job.tradeoff(plate, &options, points, &mut progress);
+        Ok(to_js(&curve.await.map_err(throw)?))
     }
 
-    /// Compares the plans of five planners, from the coarsest to the finest.
+    /// Compares the plans of five planners for a plate, from the coarsest to the finest.
     ///
     /// # Errors
     /// Throws a `CuspError`.
     #[wasm_bindgen(unchecked_return_type = "Comparison")]
     pub async fn compare(
         &mut self,
-        options: Ts<Options>,
+        plate: usize,
+        options: Ts<JobOptions>,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
         )]
@@ -380,45 +461,52 @@ impl Slicer {
     ) -> Result<JsValue, JsValue> {
         let options = given(&options)?;
         let mut progress = progress_to(&progress);
-        let comparison = self.slicer.compare(&options, &mut progress).await;
-        Ok(to_js(&comparison.map_err(throw)?))
+        let comparison = self.job.compare(plate, &options, &mut progress);
+        Ok(to_js(&comparison.await.map_err(throw)?))
     }
 
-    /// The profile of a metric in the bins of the last plan, from the plate upward: error density, or areas in mm² for the
-    /// volume deviation.
+    /// The profile of a metric in the bins of a plate of the last plan, from the plate upward, in each the largest of its models: error
+    /// density, or areas in mm² for the volume deviation.
     ///
     /// # Errors
-    /// Throws a `CuspError` if there is no plan.
+    /// Throws a `CuspError` if there is no plan or no such plate.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    pub fn profile(&self, metric: Ts<Metric>, source: Ts<Source>) -> Result<Vec<f32>, JsValue> {
+    pub fn profile(
+        &self,
+        plate: usize,
+        metric: Ts<Metric>,
+        source: Ts<Source>,
+    ) -> Result<Vec<f32>, JsValue> {
         let metric = given(&metric)?;
         let source = given(&source)?;
-        Ok(self.slicer.profile(metric, source).map_err(throw)?.density)
+        let profile = self.job.profile(plate, metric, source);
+        Ok(profile.map_err(throw)?.density)
     }
 
-    /// The mask of a layer, from 0: one bit per pixel, most significant first, rows from the largest y downward and padded
+    /// The mask of a layer of a plate, from 0: one bit per pixel, most significant first, rows from the largest y downward and padded
     /// to whole bytes. 1 is lit.
     ///
     /// # Errors
-    /// Throws a `CuspError` if there is no plan or no such layer.
-    pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, JsValue> {
-        self.slicer.mask(layer).map_err(throw)
+    /// Throws a `CuspError` if there is no plan, no such plate or no such layer.
+    pub fn mask(&mut self, plate: usize, layer: usize) -> Result<Vec<u8>, JsValue> {
+        self.job.mask(plate, layer).map_err(throw)
     }
 
-    /// What will fail when the last plan is printed, by these limits.
+    /// What will fail when a plate of the last plan is printed, by these limits.
     ///
     /// # Errors
-    /// Throws a `CuspError` if there is no plan, or if a limit is out of bounds.
+    /// Throws a `CuspError` if there is no plan or no such plate, or if a limit is out of bounds.
     #[expect(
         clippy::needless_pass_by_value,
         reason = "values from JavaScript come by value"
     )]
-    #[wasm_bindgen(unchecked_return_type = "Printability")]
+    #[wasm_bindgen(unchecked_return_type = "PlatePrintability")]
     pub fn inspect(
         &mut self,
+        plate: usize,
         limits: Ts<Limits>,
         #[wasm_bindgen(
             unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
@@ -426,28 +514,29 @@ impl Slicer {
         progress: &Function,
     ) -> Result<JsValue, JsValue> {
         let limits = given(&limits)?;
-        let found = self.slicer.inspect(&limits, &mut progress_to(progress));
+        let found = self.job.inspect(plate, &limits, &mut progress_to(progress));
         Ok(to_js(&found.map_err(throw)?))
     }
 
-    /// The masks of the last plan's print file in groups, for other workers to encode; nothing if the file has none, or if sending
-    /// them takes as long as encoding them.
+    /// The masks of a plate's print file in groups, for other workers to encode; nothing if the file has none, or if sending them takes
+    /// as long as encoding them.
     ///
     /// # Errors
-    /// Throws a `CuspError` if there is no plan.
-    pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, JsValue> {
-        let groups = self.slicer.layer_groups().map_err(throw)?;
+    /// Throws a `CuspError` if there is no plan or no such plate.
+    pub fn layer_groups(&mut self, plate: usize) -> Result<Option<LayerGroups>, JsValue> {
+        let groups = self.job.layer_groups(plate).map_err(throw)?;
         let worthwhile = groups.filter(|groups| groups.format.is_zip());
         Ok(worthwhile.map(|groups| LayerGroups { groups }))
     }
 
-    /// Writes the print file of the last plan in the format of its options, by calling `take` with one chunk after another.
-    /// `encoded`, if given, fetches each group of [`Self::layer_groups`], counted from 0, as [`encode_group`] encodes it.
+    /// Writes the print file of a plate in the format of its options, by calling `take` with one chunk after another. `encoded`, if
+    /// given, fetches each group of [`Self::layer_groups`], counted from 0, as [`encode_group`] encodes it.
     ///
     /// # Errors
     /// Throws a `CuspError`, or what `take` throws.
     pub fn archive(
         &mut self,
+        plate: usize,
         #[wasm_bindgen(unchecked_param_type = "((group: number) => Uint8Array) | null")]
         encoded: Option<Function>,
         #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: &Function,
@@ -466,8 +555,8 @@ impl Slicer {
         let group_of = group_of.as_ref().map(|it| it as &dyn Fn(usize) -> Vec<u8>);
         let mut writer = Chunks::to(take);
         let written = self
-            .slicer
-            .write_archive_of(group_of, &mut writer, &mut progress_to(progress))
+            .job
+            .write_archive_of(plate, group_of, &mut writer, &mut progress_to(progress))
             .map(|_| ());
         Chunks::end(writer, written)
     }

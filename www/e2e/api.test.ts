@@ -278,24 +278,23 @@ test("a search is aborted, by its signal and with its slicer; what cannot be sea
 test("two models in several copies become one print file, and the masks show each copy", async () => {
   const found = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();
-    const { plate } = slicer;
     const options = { pixels: [1000, 800] as [number, number], pitch_mm: 0.05, format: "png" as const };
     const block = await slicer.add("block.stl", { copies: 3 });
-    const ball = await plate.add("small.stl");
-    const { plates, print_time_s, resin_ml } = await plate.plan(options);
+    const ball = await slicer.add("small.stl");
+    const { plates, print_time_s, resin_ml } = await slicer.plan(options);
     const lit = async (layer: number): Promise<number> => {
-      const { bits } = await plate.mask(0, layer);
+      const { bits } = await slicer.mask(layer);
       return bits.reduce((sum, byte) => sum + byte.toString(2).replaceAll("0", "").length, 0);
     };
     const report = plates[0]?.report;
     if (report === undefined) throw new Error("no plate");
     const top = report.layers - 1;
     const both = [await lit(Math.floor(report.layers / 4)), await lit(top)];
-    const file = await plate.export(0);
+    const file = await slicer.export();
     const bytes = [...new Uint8Array(await file.blob.arrayBuffer())];
-    await plate.remove(ball.id);
-    await plate.update(block.id, { copies: 2 });
-    const again = await plate.plan(options);
+    await slicer.remove(ball.id);
+    await slicer.update(block.id, { copies: 2 });
+    const again = await slicer.plan(options);
     const blocks = await lit(0);
     slicer.dispose();
     return { count: plates.length, report, print_time_s, resin_ml, both, name: file.name, bytes, again: again.plates[0]?.report.plate, blocks };
@@ -320,44 +319,27 @@ test("two models in several copies become one print file, and the masks show eac
   expect(found.blocks).toBe(2 * (8 / 0.05) ** 2);
 });
 
-test("a single copy gives the print file of the model alone, byte for byte", async () => {
-  const isSame = await page.evaluate(async () => {
-    const slicer = window.api.createSlicer();
-    const options = { printer: "mars-4-ultra" };
-    await slicer.load("ball.stl");
-    const alone = await slicer.export(options);
-    await slicer.add("ball.stl");
-    await slicer.plate.plan(options);
-    const plated = await slicer.plate.export(0);
-    slicer.dispose();
-    const [a, b] = await Promise.all([alone, plated].map(async ({ blob }) => new Uint8Array(await blob.arrayBuffer())));
-    return [alone.name === plated.name, a !== undefined && a.length === b?.length && a.every((byte, i) => byte === b[i])];
-  });
-  expect(isSame).toEqual([true, true]);
-});
-
-test("cancelling a plan keeps the plate; copies that overlap are told", async () => {
+test("cancelling a plan keeps the models; copies that overlap are told", async () => {
   const found = await page.evaluate(async () => {
     const slicer = window.api.createSlicer();
-    const { plate } = slicer;
     const options = { printer: "mars-4-ultra" };
-    await plate.add("block.stl", { copies: 40 });
-    const arranged = await plate.arrange(options);
+    const { id } = await slicer.add("block.stl", { copies: 40 });
+    const arranged = await slicer.arrange(options);
     // The second copy a millimetre beside the first.
     const overlapping = arranged.slice(0, 2).map((copy, i) => ({ ...copy, x_mm: (arranged[0]?.x_mm ?? 0) + i, y_mm: arranged[0]?.y_mm ?? 0 }));
-    await plate.update(1, { copies: 2 });
-    const problems = await plate.problems(options, overlapping);
-    const refused = await plate.plan(options, { placements: overlapping }).then(
+    await slicer.update(id, { copies: 2 });
+    const problems = await slicer.problems(options, overlapping);
+    const refused = await slicer.plan(options, { placements: overlapping }).then(
       () => "",
       (error: { code: string }) => error.code,
     );
     const abort = new AbortController();
-    const cancelled = plate.plan(options, { signal: abort.signal, onProgress: () => abort.abort() }).then(
+    const cancelled = slicer.plan(options, { signal: abort.signal, onProgress: () => abort.abort() }).then(
       () => "",
       (error: Error) => error.name,
     );
     const outcome = await cancelled;
-    const { plates } = await plate.plan(options);
+    const { plates } = await slicer.plan(options);
     slicer.dispose();
     return { problems, refused, outcome, copies: plates[0]?.report.plate?.models[0]?.copies };
   });

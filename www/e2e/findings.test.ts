@@ -7,7 +7,7 @@ import { promisify } from "node:util";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
-import type { Check } from "../src/api/index.js";
+import type { ModelPrintability } from "../src/api/index.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
@@ -31,7 +31,7 @@ const verdict = (page: Page): Promise<string | null> => page.locator("cusp-findi
 test("a cup is found, chosen by click or key it is shown and marked, is judged by the limits of a shop, and upside down it is none", async () => {
   const page = await opened();
   expect(await verdict(page)).toBe("review");
-  const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings ?? []);
+  const [finding] = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.models[0]?.findings ?? []);
   expect(finding?.code).toBe("cup");
   const found = page.getByRole("button", { name: /^A hollow of/ });
   expect(await found.count()).toBe(1);
@@ -66,7 +66,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
     element.query = "rotation=1,0,0,0";
   });
   await settled(page);
-  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings.map(({ code }) => code))).not.toContain("cup");
+  await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.models[0]?.findings.map(({ code }) => code))).not.toContain("cup");
   await expect.poll(() => found.count()).toBe(0);
   expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
 });
@@ -81,11 +81,11 @@ test.skipIf(program === undefined)("the page finds what the command line does", 
     const model = join(folder, mug.name);
     await writeFile(model, mug.bytes);
     const { stdout } = await promisify(execFile)(program ?? "", ["check", model, "--json"]);
-    const told = JSON.parse(stdout) as Check;
+    const told = JSON.parse(stdout) as ModelPrintability;
     // As JSON: what is undefined here is null there.
-    const plain = ({ verdict, findings, counts, bodies, peel }: Partial<Check>): unknown =>
+    const plain = ({ verdict, findings, counts, bodies, peel }: Partial<ModelPrintability>): unknown =>
       JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
-    expect(plain(check ?? {})).toEqual(plain(told));
+    expect(plain(check?.models[0] ?? {})).toEqual(plain(told));
   } finally {
     await rm(folder, { recursive: true });
   }

@@ -153,11 +153,11 @@ test("an idle page fetches the view and compiles a plan before there is a model;
   await drop(page, ball);
   await expect.poll(() => seen(page)).toContain("view");
   const order = await seen(page);
-  expect(order.indexOf("plan")).toBeGreaterThan(order.indexOf("open"));
+  expect(order.indexOf("plan")).toBeGreaterThan(order.indexOf("add"));
   expect(order.indexOf("done")).toBeGreaterThan(order.indexOf("plan"));
   expect(order.indexOf("view")).toBeGreaterThan(order.indexOf("done"));
   // The worker that has read the model gives it to the view: no other reads it again.
-  expect(order.filter((it) => it === "open" || it === "positions" || it === "boot")).toEqual(["boot", "open"]);
+  expect(order.filter((it) => it === "add" || it === "positions" || it === "boot")).toEqual(["boot", "add"]);
 
   const slow = await noted("?hangs");
   await drop(slow.page, ball);

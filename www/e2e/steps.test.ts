@@ -2,7 +2,6 @@
 import { unzipSync } from "fflate";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
-import type { Check } from "../src/api/index.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import type { Report } from "../src/api/wire.js";
 import { broken } from "./axe.js";
@@ -75,7 +74,7 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   await next(page, "Check");
   await at(page, "Check");
   await page.waitForSelector("cusp-findings [data-verdict]");
-  const findings = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.check as Check | null)?.findings.map(({ code }) => code) ?? []);
+  const findings = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.models[0]?.findings.map(({ code }) => code) ?? []);
   expect(findings.some((code) => code === "island" || code === "loose-body")).toBe(true);
   await expect.poll(() => said(page, "Check")).toMatch(/^(Worth a look|Will fail)$/);
 

@@ -5,7 +5,7 @@ use std::sync::OnceLock;
 
 use bytesize::ByteSize;
 use clap::Args;
-use cusp_slicer::job::{Plate, Slicer};
+use cusp_slicer::job::{Job, Slicer};
 
 use crate::values::positive;
 #[cfg(target_os = "linux")]
@@ -53,7 +53,7 @@ impl Budget {
     }
 
     /// A plate that keeps to it.
-    pub fn bound_plate(&self, mut plate: Plate) -> Plate {
+    pub fn bound_plate(&self, mut plate: Job) -> Job {
         if let Some(bytes) = self.memory_bytes() {
             plate = plate.with_memory(bytes);
         }

@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{ModelOptions, Options, Placement, Plate, PlateOptions};
+use cusp_slicer::job::{self, JobOptions, ModelOptions, Options, Placement};
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use serde::{Deserialize, Serialize};
@@ -114,8 +114,8 @@ pub struct Job {
     pub paths: Vec<PathBuf>,
     /// The file of weights of each model, if it has one.
     pub weights: Vec<Option<PathBuf>>,
-    pub plate: Plate,
-    pub options: PlateOptions,
+    pub plate: job::Job,
+    pub options: JobOptions,
 }
 
 /// The job file, if the only argument is one: JSON, by its content.
@@ -163,7 +163,7 @@ pub fn read_job(
         paths: read.paths,
         weights: read.weights,
         plate: read.plate,
-        options: PlateOptions {
+        options: JobOptions {
             options: settings.options,
             models: file.models.iter().map(JobModel::own).collect(),
             arranging: places.arranging(file.arranging),
@@ -176,14 +176,14 @@ pub fn read_job(
 pub struct JobModels {
     pub paths: Vec<PathBuf>,
     pub weights: Vec<Option<PathBuf>>,
-    pub plate: Plate,
+    pub plate: job::Job,
 }
 
 impl JobFile {
     /// Reads all models, whose paths are relative to this folder.
     pub fn read_models(&self, folder: Option<&Path>) -> Result<JobModels, Failure> {
         let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
-        let (mut paths, mut weights, mut plate) = (Vec::new(), Vec::new(), Plate::default());
+        let (mut paths, mut weights, mut plate) = (Vec::new(), Vec::new(), job::Job::default());
         for model in &self.models {
             let path = within(&model.file);
             let painted = model.weights.as_deref().map(within);
@@ -195,7 +195,7 @@ impl JobFile {
                     curved_caps: model.curved_caps,
                 },
             };
-            plate.add(reading.load(&path)?);
+            plate.add(reading.load(&path)?.into_model());
             weights.push(painted);
             paths.push(path);
         }

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 
 use clap::Args;
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{Backend, PlatesReport};
+use cusp_slicer::job::{Backend, JobReport};
 
 use crate::arguments::{Choices, Slicing};
 use crate::budget::Budget;
@@ -75,10 +75,17 @@ pub fn job(command: &str, slicing: &Slicing) -> Result<Option<Job>, Failure> {
         return Ok(None);
     }
     let mut job = read_job(command, file, &slicing.models, places, &slicing.choices)?;
+    job.plate = slicing.budget.bound_plate(std::mem::take(&mut job.plate));
     if slicing.arrange {
         job.options.placements.clear();
+        if let [one] = &job.options.models[..]
+            && one.copies == 1
+        {
+            // Without a place it would stand in the middle, on no plate.
+            let places = job.plate.arrange(&job.options);
+            job.options.placements = places.map_err(|error| job.failure(&error))?;
+        }
     }
-    job.plate = slicing.budget.bound_plate(std::mem::take(&mut job.plate));
     Ok(Some(job))
 }
 
@@ -103,7 +110,7 @@ impl Job {
             })
     }
 
-    pub fn make_plan(&mut self, bar: &Bar) -> Result<PlatesReport, Failure> {
+    pub fn make_plan(&mut self, bar: &Bar) -> Result<JobReport, Failure> {
         if self.options.options.backend == Backend::Gpu {
             open_gpu_of_plate(&mut self.plate);
         }
@@ -174,7 +181,7 @@ fn print_files(job: &Job, output: &Path, plates: usize) -> Result<Vec<PathBuf>, 
     Ok(numbered(folder, &stem, &end))
 }
 
-fn show(job: &Job, slicing: &Slicing, report: &PlatesReport) -> Result<(), Failure> {
+fn show(job: &Job, slicing: &Slicing, report: &JobReport) -> Result<(), Failure> {
     for plate in &report.plates {
         warn(&plate.warnings);
     }

@@ -6,7 +6,7 @@ use std::sync::Arc;
 use cusp_slicer::archive::read::Inspection;
 use cusp_slicer::contour::ContoursReport;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{MeshInfo, Options, OrientationReport, PlatesReport, Report, Tradeoff};
+use cusp_slicer::job::{JobReport, MeshInfo, Options, OrientationReport, Report, Tradeoff};
 use cusp_slicer::price::Prices;
 use cusp_slicer::printer::Printer;
 use cusp_slicer::resin::Resin;
@@ -127,7 +127,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("orient", output::<OrientationReport>()),
         ("plan", output::<Report>()),
         ("plate", input::<JobFile>()),
-        ("plates", output::<PlatesReport>()),
+        ("plates", output::<JobReport>()),
         ("price", output::<Priced>()),
         ("prices", input::<Prices>()),
         ("printer", input::<Printer>()),

@@ -6,7 +6,7 @@ use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::job::{Backend, Plate, Slicer, Stage};
+use cusp_slicer::job::{Backend, Job, Slicer, Stage};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
@@ -90,7 +90,7 @@ pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
 }
 
 /// The same for a plate of several models.
-pub fn open_gpu_of_plate(plate: &mut Plate) {
+pub fn open_gpu_of_plate(plate: &mut Job) {
     #[cfg(unix)]
     let _silence = Silence::begin();
     pollster::block_on(plate.open_gpu());

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use bytesize::ByteSize;
 use clap::Args;
 use cusp_slicer::inspect::{Limits, Printability, Verdict};
-use cusp_slicer::job::{Backend, Claim, ModelPrintability, Report, Slicer, VerifyError};
+use cusp_slicer::job::{Backend, Claim, LoadedModel, ModelPrintability, Report, VerifyError};
 use cusp_slicer::price::{Price, PriceItem};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
@@ -191,7 +191,7 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
     let shop = verifying.shop()?;
     let plate = job.read_models(path.parent())?.plate;
     let mut plate = verifying.budget().bound_plate(plate);
-    let files: Vec<_> = plate.models().iter().map(Slicer::model_file).collect();
+    let files: Vec<_> = plate.models().iter().map(LoadedModel::model_file).collect();
     let claims = Claim::read_plates(text, &files).map_err(|error| Failure::of(plan, &error))?;
     let sent = match verifying.print.as_deref() {
         Some(_) if claims.len() != 1 => {

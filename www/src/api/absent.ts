@@ -1,32 +1,19 @@
 /** The slicer without workers, as in server-side rendering: it does nothing, and every call rejects with `no-browser`. */
 import { SlicerError } from "./error.js";
 import type { Slicer } from "./index.js";
-import type { Plate } from "./plate.js";
 
 export function absentSlicer(): Slicer {
   const error = (): SlicerError => new SlicerError("no-browser", "there is no browser here: call this in the page");
   const reject = (): Promise<never> => Promise.reject(error());
   const nothing = (): void => undefined;
-  const plate: Plate = {
+  return {
+    load: reject,
     add: reject,
     update: reject,
     remove: reject,
     models: reject,
-    setWeights: reject,
-    positions: reject,
     arrange: reject,
     problems: reject,
-    plan: reject,
-    mask: reject,
-    check: reject,
-    tradeoff: reject,
-    export: reject,
-    price: reject,
-  };
-  return {
-    plate,
-    add: reject,
-    load: reject,
     plan: reject,
     mask: reject,
     check: reject,
@@ -36,6 +23,7 @@ export function absentSlicer(): Slicer {
     measure: reject,
     export: reject,
     plugs: reject,
+    exportAll: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
     exportStream: () => new ReadableStream({ start: (controller) => controller.error(error()) }),
     positions: reject,
     preview: reject,

@@ -1,9 +1,9 @@
 import { beforeEach, expect, test } from "vitest";
 import type { Watch, WorkerHandle } from "./calls.js";
-import { Client, type About, type ModelFile } from "./client.js";
+import { Client, type Loaded, type Models } from "./client.js";
 import { SlicerError } from "./error.js";
-import { fakePlate } from "./fake-plate.js";
-import type { CuspError, Preview, Price, MeshInfo, OnProgress, Opened, Options, Printability, Profiled, Report, SlicerWorker } from "./wire.js";
+import { fakeWorker } from "./fake-worker.js";
+import type { CuspError, OnProgress, Opened, Options, ProfiledPlates, SlicerWorker } from "./wire.js";
 
 /** The calls to the fake workers, in order: `worker number: call`. */
 let log: string[];
@@ -17,67 +17,14 @@ class FakeWorker implements WorkerHandle {
   failure: unknown = null;
   memory_bytes = 1 << 24;
   broken: (message: string) => void = () => undefined;
-  opened = "";
-  planned: Options = {};
 
   readonly remote: SlicerWorker = {
-    ...fakePlate((what) => this.#work(what)),
+    ...fakeWorker((what) => this.#work(what)),
     boot: async (module) => {
-      this.#say(typeof module === "string" ? "boot, compiling" : "boot");
+      log.push(`${this.number}: ${typeof module === "string" ? "boot, compiling" : "boot"}`);
       return {};
     },
     memory: () => this.memory_bytes,
-    rehearse: async () => this.#say("rehearse"),
-    open: async (file) => {
-      this.opened = await file.text();
-      await this.#work(`open ${this.opened}`);
-      return { info: { facets: 1, search_bytes: 200 } as MeshInfo };
-    },
-    plan: async (options, progress) => {
-      progress("ldi", 0.5, 0.4);
-      await this.#work(`plan ${options.tolerance} of ${this.opened}`);
-      this.planned = options;
-      return { report: { resin_ml: 2, print_time_s: 60 } } as Profiled<Report>;
-    },
-    mask: (layer) => {
-      this.#say(`mask ${layer} of ${this.planned.tolerance}`);
-      return new Uint8Array(1);
-    },
-    inspect: ({ wall_mm }) => {
-      this.#say(`inspect ${wall_mm} of ${this.planned.tolerance}`);
-      return {} as Printability;
-    },
-    tradeoff: async (options) => {
-      await this.#work(`tradeoff of ${options.rays} rays`);
-      return { points: [] };
-    },
-    compare: () => Promise.reject(new Error("not faked")),
-    archive: (_progress, take) => {
-      this.#say("archive");
-      if (take === null) return new Blob(["zip"]);
-      for (const chunk of ["z", "ip"]) take(new TextEncoder().encode(chunk));
-      return null;
-    },
-    encodeGroup: () => new Uint8Array(1),
-    plugs: () => {
-      this.#say(`plugs of ${this.planned.tolerance}`);
-      return new Uint8Array(84);
-    },
-    positions: () => new Float32Array(9),
-    preview: () => ({}) as Profiled<Preview>,
-    saliency: () => new Float32Array(1),
-    setWeights: () => undefined,
-    weightsFile: () => new Uint8Array(1),
-    readWeights: async () => new Float32Array(1),
-    startSearch: () => new Float64Array(0),
-    advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
-    evaluate: () => [],
-    calibrateLayers: () => Promise.reject(new Error("not faked")),
-    printers: () => [],
-    price: (prices, items, finish) => {
-      this.#say(`price of ${JSON.stringify(items)}, ${finish}`);
-      return { currency: prices.currency, total: 1 } as Price;
-    },
   };
 
   terminate(): void {
@@ -88,12 +35,8 @@ class FakeWorker implements WorkerHandle {
     this.broken = callback;
   }
 
-  #say(what: string): void {
-    log.push(`${this.number}: ${what}`);
-  }
-
   async #work(what: string): Promise<void> {
-    this.#say(what);
+    log.push(`${this.number}: ${what}`);
     if (this.hang) await new Promise(() => undefined);
     if (this.failure !== null) throw this.failure;
   }
@@ -102,25 +45,27 @@ class FakeWorker implements WorkerHandle {
 /** Uses a client as `createSlicer()` does: calls are about the last opened model. */
 class Caller {
   readonly client: Client;
-  about: About = Promise.resolve(null);
+  models: Models = Promise.resolve([]);
+  #opened = 0;
 
   constructor(spawn: () => WorkerHandle) {
     this.client = new Client(spawn, { module: null, address: "" });
   }
 
-  open(blob: Blob, watch: Watch): Promise<Opened> {
-    const file = { blob, reading: {} };
-    const opened = this.client.open(Promise.resolve(file), watch);
-    const before = this.about;
-    this.about = opened.then(
-      ({ info: { search_bytes } }) => ({ name: "", file, search_bytes, weights: null }),
+  open(file: Blob | Promise<Blob>, watch: Watch): Promise<Opened> {
+    const id = ++this.#opened;
+    const arriving = Promise.resolve(file);
+    const opened = this.client.add(null, id, arriving, {}, watch);
+    const before = this.models;
+    this.models = Promise.all([arriving, opened]).then(
+      ([file, { info }]): Loaded[] => [{ id, name: "", file, reading: {}, search_bytes: info.search_bytes, weights: null }],
       () => before,
     );
     return opened;
   }
 
-  plan(options: Options, watch: Watch): Promise<Profiled<Report>> {
-    return this.client.plan(this.about, options, watch);
+  plan(options: Options, watch: Watch): Promise<ProfiledPlates> {
+    return this.client.plan(this.models.then((models) => ({ models, options: { options } })), watch);
   }
 }
 
@@ -155,8 +100,8 @@ test("warm() starts the worker that later calls use, and only that one", async (
   caller.client.warm();
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
-  await caller.client.mask(3);
-  expect(log).toEqual(["1: boot, compiling", "1: open a", "1: plan 1 of a", "1: mask 3 of 1"]);
+  await caller.client.mask(0, 3);
+  expect(log).toEqual(["1: boot, compiling", "1: add a", "1: plan 1 of a", "1: mask 3 of plate 0, 1"]);
 });
 
 test("a warm worker rehearses a plan once it is idle, unless it has been asked for something by then", async () => {
@@ -168,7 +113,7 @@ test("a warm worker rehearses a plan once it is idle, unless it has been asked f
   await busy.open(new Blob(["a"]), watch());
   await busy.plan({ tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve, 10));
-  expect(log.slice(2)).toEqual(["2: boot, compiling", "2: open a", "2: plan 1 of a"]);
+  expect(log.slice(2)).toEqual(["2: boot, compiling", "2: add a", "2: plan 1 of a"]);
 });
 
 test("progress is reported", async () => {
@@ -185,31 +130,31 @@ test("cancelling a plan terminates the worker; the next one gets the module, the
   await hung((watch) => caller.plan({ tolerance: 2 }, watch));
   expect(worker(1).terminated).toBe(true);
   log = [];
-  await caller.client.mask(0);
-  expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
+  await caller.client.mask(0, 0);
+  expect(log).toEqual(["2: boot", "2: add a", "2: plan 1 of a", "2: mask 0 of plate 0, 1"]);
 });
 
 test("checks are of the last good plan", async () => {
-  await expect(caller.client.inspect({}, watch())).rejects.toMatchObject({ code: "no-plan" });
+  await expect(caller.client.inspect(0, {}, watch())).rejects.toMatchObject({ code: "no-plan" });
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
   worker(1).hang = true;
   await hung((watch) => caller.plan({ tolerance: 2 }, watch));
   log = [];
-  await caller.client.inspect({ wall_mm: 0.5 }, watch());
-  expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a", "2: inspect 0.5 of 1"]);
+  await caller.client.inspect(0, { wall_mm: 0.5 }, watch());
+  expect(log).toEqual(["2: boot", "2: add a", "2: plan 1 of a", "2: inspect 0.5 of plate 0, 1"]);
 });
 
 test("plugs are for the holes of the last good plan", async () => {
-  await expect(caller.client.plugs({})).rejects.toMatchObject({ code: "no-plan" });
+  await expect(caller.client.plugs(Promise.resolve(1), {})).rejects.toMatchObject({ code: "no-plan" });
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
   worker(1).failure = { code: "too-many-facets", message: "no", detail: null };
   await expect(caller.plan({ tolerance: 2 }, watch())).rejects.toBeInstanceOf(SlicerError);
   worker(1).failure = null;
   log = [];
-  expect(await caller.client.plugs({})).toHaveLength(84);
-  expect(log).toEqual(["1: plan 1 of a", "1: plugs of 1"]);
+  expect(await caller.client.plugs(Promise.resolve(1), {})).toHaveLength(84);
+  expect(log).toEqual(["1: plan 1 of a", "1: plugs of a, 1"]);
 });
 
 test("cancelling while a file is read keeps the previous model", async () => {
@@ -218,7 +163,7 @@ test("cancelling while a file is read keeps the previous model", async () => {
   await hung((watch) => caller.open(new Blob(["b"]), watch));
   log = [];
   await caller.plan({ tolerance: 1 }, watch());
-  expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
+  expect(log).toEqual(["2: boot", "2: add a", "2: plan 1 of a"]);
 });
 
 test("a queued call can be cancelled without terminating the worker", async () => {
@@ -243,8 +188,8 @@ test("an error from the core keeps its code, its details and the worker; masks c
   await expect(running).rejects.toMatchObject(failure);
   worker(1).failure = null;
   log = [];
-  await caller.client.mask(0);
-  expect(log).toEqual(["1: plan 1 of a", "1: mask 0 of 1"]);
+  await caller.client.mask(0, 0);
+  expect(log).toEqual(["1: plan 1 of a", "1: mask 0 of plate 0, 1"]);
 });
 
 test("a core that crashes is replaced", async () => {
@@ -254,7 +199,7 @@ test("a core that crashes is replaced", async () => {
   expect(worker(1).terminated).toBe(true);
   log = [];
   await caller.plan({ tolerance: 1 }, watch());
-  expect(log).toEqual(["2: boot", "2: open a", "2: plan 1 of a"]);
+  expect(log).toEqual(["2: boot", "2: add a", "2: plan 1 of a"]);
 });
 
 test("a core that does not start rejects with start-failed, and the next call tries again", async () => {
@@ -267,7 +212,7 @@ test("a core that does not start rejects with start-failed, and the next call tr
   failing.client.warm();
   await expect(failing.open(new Blob(["a"]), watch())).rejects.toMatchObject({ code: "start-failed", message: "HTTP 404" });
   await failing.open(new Blob(["a"]), watch());
-  expect(log).toEqual(["2: boot, compiling", "2: open a"]);
+  expect(log).toEqual(["2: boot, compiling", "2: add a"]);
 });
 
 test("a worker that is refused, or whose script cannot be loaded, rejects with worker-failed, and the next call tries again", async () => {
@@ -286,7 +231,7 @@ test("a worker that is refused, or whose script cannot be loaded, rejects with w
   worker(1).broken("no script");
   await expect(opened).rejects.toMatchObject({ code: "worker-failed", message: "no script" });
   await failing.open(new Blob(["a"]), watch());
-  expect(log).toEqual(["2: boot, compiling", "2: open a"]);
+  expect(log).toEqual(["2: boot, compiling", "2: add a"]);
 });
 
 test("workers that start together compile once; where the first of them is ended, the next one does", async () => {
@@ -333,53 +278,51 @@ test("a trade-off leaves the core's plan in place, with the same rays or others"
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1, rays: 512 }, watch());
   log = [];
-  await caller.client.tradeoff(caller.about, { tolerance: 2, rays: 512 }, 9, watch());
-  await caller.client.mask(0);
-  await caller.client.tradeoff(caller.about, { rays: 1024 }, 9, watch());
-  await caller.client.mask(0);
+  const curve = (rays: number): Promise<unknown> => caller.client.asks(caller.models, watch(), (remote, _, progress) => remote.tradeoff(0, { options: { rays } }, 9, progress));
+  await curve(512);
+  await caller.client.mask(0, 0);
+  await curve(1024);
+  await caller.client.mask(0, 0);
   expect(log).toEqual([
-    "1: tradeoff of 512 rays",
-    "1: mask 0 of 1",
-    "1: tradeoff of 1024 rays",
-    "1: mask 0 of 1",
+    "1: tradeoff 9 of plate 0, 512 rays",
+    "1: mask 0 of plate 0, 1",
+    "1: tradeoff 9 of plate 0, 1024 rays",
+    "1: mask 0 of plate 0, 1",
   ]);
 });
 
 test("a print file arrives whole, or chunk by chunk in order", async () => {
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({}, watch());
-  expect(await (await caller.client.archive(null, watch())).blob.text()).toBe("zip");
+  expect(await (await caller.client.archive(0, null, watch())).blob.text()).toBe("zip");
   const chunks: string[] = [];
-  await caller.client.archiveTo(null, (chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
+  await caller.client.archiveTo(0, null, (chunk) => chunks.push(new TextDecoder().decode(chunk)), watch());
   expect(chunks).toEqual(["z", "ip"]);
 });
 
 test("a call made too early says what is missing; calls after dispose() reject", async () => {
-  await expect(caller.plan({}, watch())).rejects.toMatchObject({ code: "no-model" });
   await caller.open(new Blob(["a"]), watch());
-  await expect(caller.client.mask(0)).rejects.toMatchObject({ code: "no-plan" });
+  await expect(caller.client.mask(0, 0)).rejects.toMatchObject({ code: "no-plan" });
   caller.client.dispose();
-  await expect(caller.client.mask(0)).rejects.toMatchObject({ name: "AbortError" });
+  await expect(caller.client.mask(0, 0)).rejects.toMatchObject({ name: "AbortError" });
   expect(workers).toHaveLength(1);
 });
 
 test("calls run in the order they are made: a file still being fetched holds up later calls", async () => {
   await caller.open(new Blob(["a"]), watch());
-  let arrive: (file: ModelFile) => void = () => undefined;
-  const file = new Promise<ModelFile>((resolve) => (arrive = resolve));
-  const opened = caller.client.open(file, watch());
-  const about = opened.then(async ({ info: { search_bytes } }) => ({ name: "", file: await file, search_bytes, weights: null }));
-  const planned = caller.client.plan(about, { tolerance: 1 }, watch());
+  let arrive: (file: Blob) => void = () => undefined;
+  void caller.open(new Promise<Blob>((resolve) => (arrive = resolve)), watch());
+  const planned = caller.plan({ tolerance: 1 }, watch());
   await new Promise((resolve) => setTimeout(resolve));
-  arrive({ blob: new Blob(["b"]), reading: {} });
+  arrive(new Blob(["b"]));
   await planned;
-  expect(log.slice(2)).toEqual(["1: open b", "1: plan 1 of b"]);
+  expect(log.slice(2)).toEqual(["1: add b", "1: remove a", "1: plan 1 of b"]);
 });
 
 test("cancelling a fetch does not terminate the worker", async () => {
   await caller.open(new Blob(["a"]), watch());
   const abort = new AbortController();
-  const opened = caller.client.open(new Promise(() => undefined), watch(abort.signal));
+  const opened = caller.open(new Promise(() => undefined), watch(abort.signal));
   abort.abort();
   await expect(opened).rejects.toMatchObject({ name: "AbortError" });
   expect(worker(1).terminated).toBe(false);
@@ -412,14 +355,14 @@ test("a worker that has grown far beyond what a model needs is replaced before i
   await caller.open(new Blob(["b"]), watch());
   expect(worker(1).terminated).toBe(true);
   await caller.plan({ tolerance: 1 }, watch());
-  expect(log.slice(3)).toEqual(["1: plan 2 of a", "2: boot", "2: open b", "2: plan 1 of b"]);
+  expect(log.slice(3)).toEqual(["1: plan 2 of a", "2: boot", "2: add b", "2: plan 1 of b"]);
 });
 
 test("a large model may have a large worker, and a modest one is worth no restart", async () => {
   const large = new Blob([new Uint8Array(GIGABYTE / 64)]);
   await caller.open(new Blob(["a"]), watch());
   worker(1).memory_bytes = GIGABYTE;
-  await caller.client.open(Promise.resolve({ blob: large, reading: {} }), watch());
+  await caller.open(large, watch());
   worker(1).memory_bytes = 1 << 28;
   await caller.open(new Blob(["b"]), watch());
   expect(workers).toHaveLength(1);
@@ -437,8 +380,8 @@ test("a file that a fresh worker cannot read leaves the model before", async () 
   await expect(refusing.open(new Blob(["b"]), watch())).rejects.toMatchObject({ code: "file-empty" });
   worker(2).failure = null;
   log = [];
-  await refusing.client.mask(0);
-  expect(log).toEqual(["2: open a", "2: plan 1 of a", "2: mask 0 of 1"]);
+  await refusing.client.mask(0, 0);
+  expect(log).toEqual(["2: add a", "2: plan 1 of a", "2: mask 0 of plate 0, 1"]);
 });
 
 test("a price is that of the last good plan, also in a fresh worker", async () => {
@@ -451,5 +394,5 @@ test("a price is that of the last good plan, also in a fresh worker", async () =
   expect(await client.price({ currency: "EUR" }, { copies: 3, finish: "sanded" }, {})).toMatchObject({ currency: "EUR" });
   // It needs neither the model nor the plan.
   expect(log.slice(-1)).toEqual([`${workers.length}: price of [{"copies":3,"resin_ml":2,"print_time_s":60}], sanded`]);
-  expect(log.filter((call) => /plan|open/.test(call))).toEqual([]);
+  expect(log.filter((call) => /plan|add/.test(call))).toEqual([]);
 });

@@ -1,54 +1,56 @@
 /**
- * The client of one model: brings each worker the subject of a call.
+ * The client of a job: brings each worker the models of a call.
  *
- * Each call carries its subject: the model and its facet weights at the time of the call. The last successful plan is kept with
- * its subject and options, and replayed when a fresh worker is asked for its masks.
+ * Each call carries its models, with the weights of their facets, as they were when it was made. The last successful plan is kept
+ * with its models and options, and replayed when a fresh worker is asked for its masks.
  */
 import * as Comlink from "comlink";
 import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { told, untold } from "./told.js";
-import type { Comparison, Format, Help, KnownPrinter, Limits, OnProgress, Opened, Options, Price, Prices, Printability, Profiled, ReadOptions, Report, Tradeoff, Written } from "./wire.js";
-
-/** What a worker holds: a file as it was read, the weights of its facets, and a plan. */
-interface Held {
-  file: ModelFile | null;
-  weights: Weights;
-  /** The plan that the core holds; null if there is none or it is unknown. */
-  planned: Planned | null;
-}
-
-/** A file and the choices for reading it. One that is read again is another object. */
-export interface ModelFile {
-  readonly blob: Blob;
-  readonly reading: ReadOptions;
-}
+import type { Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Written } from "./wire.js";
 
 /** How much each facet matters, 0 to 1; null: all equally. */
 export type Weights = Float32Array | null;
 
-/** What a call is about: a model and the weights of its facets. */
-export interface Subject {
+/** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
+export interface Loaded {
+  readonly id: number;
   readonly name: string;
-  readonly file: ModelFile;
+  readonly file: Blob;
+  readonly reading: ReadOptions;
   /** Memory in bytes that a search takes in each worker besides the file, as the core reports it. */
   readonly search_bytes: number;
   readonly weights: Weights;
 }
 
-/** The subject of a call, resolved once earlier calls have settled; null if no model is loaded. */
-export type About = Promise<Subject | null>;
+/** The models of a call, in order, once earlier calls have settled. */
+export type Models = Promise<readonly Loaded[]>;
 
-/** A successful plan with its subject and options. */
-export interface Planned {
-  readonly subject: Subject;
-  readonly options: Options;
-  readonly report: Report;
+/** The model that a call is about; rejects if there is none. */
+export type About = Promise<Loaded>;
+
+/** Models and what is asked for them. */
+export interface Job {
+  readonly models: readonly Loaded[];
+  readonly options: JobOptions;
 }
 
-/** The plan to export: one for these options; null: the last one. */
-export type Wanted = { about: About; options: Options } | null;
+/** A successful plan with its models and options. */
+export interface Planned extends Job {
+  readonly report: JobReport;
+}
+
+/** What a worker holds: models in the order of its job, and a plan. */
+interface Held {
+  models: { readonly id: number; weights: Weights }[];
+  /** The plan that the core holds; null if there is none or it is unknown. */
+  planned: Planned | null;
+}
+
+/** A question to the core about a model, by its place in the worker's job. */
+type Question<T> = (remote: Remote, place: number, progress: OnProgress) => T | Promise<T>;
 
 export class Client {
   readonly #calls: Calls<Held>;
@@ -60,7 +62,7 @@ export class Client {
   constructor(spawn: () => WorkerHandle, compiled: Compiled, helpers = 0, help: Help = () => Promise.resolve(null)) {
     this.#helpers = helpers;
     this.#help = help;
-    this.#calls = new Calls(spawn, compiled, () => ({ file: null, weights: null, planned: null }));
+    this.#calls = new Calls(spawn, compiled, () => ({ models: [], planned: null }));
   }
 
   /** Starts the worker before it is needed, and has it compile what a plan needs. The first real call reports a failure. */
@@ -68,73 +70,71 @@ export class Client {
     this.#calls.warm(async ({ handle }) => handle.remote.rehearse()).catch(() => undefined);
   }
 
-  /** Opens a model once its file has arrived. On failure or abort, the previous model stays. */
-  open(file: Promise<ModelFile>, watch: Watch, wantsPositions = false): Promise<Opened> {
-    return this.#calls.run(watch, file, async (life, file, progress) => {
-      const opened = await this.#read(life, file, progress, wantsPositions);
-      this.#planned = null;
+  /** Adds a model to others once its file has arrived, or with `null` puts it in their place. On failure or abort, those stay. */
+  add(others: Models | null, id: number, file: Promise<Blob>, reading: ReadOptions, watch: Watch, wantsPositions = false): Promise<Opened> {
+    return this.#calls.run(watch, Promise.all([others, file]), async (life, [others, file], progress) => {
+      const { handle, held } = life;
+      if (others !== null) await this.#bring(life, others);
+      else if (held.models.length > 0) await shed(life, file.size);
+      const opened = await handle.remote.add(file, reading, progress, wantsPositions);
+      held.planned = null;
+      // A model that cannot be read leaves the others.
+      if (others === null) for (const _ of held.models.splice(0)) await handle.remote.remove(0);
+      held.models.push({ id, weights: null });
       return opened;
     });
   }
 
-  /** Sends the subject's weights to the core now; rejects if it refuses them. */
-  setWeights(about: About, watch: Watch): Promise<void> {
-    return this.#about(about, watch, () => Promise.resolve());
+  /** Sends the models' weights to the core now; rejects if it refuses them. */
+  bring(models: Models, watch: Watch): Promise<void> {
+    return this.#calls.run(watch, models, (life, models) => this.#bring(life, models));
   }
 
-  /** Plans the layers. On failure or abort, masks and print file still belong to the previous plan. */
-  plan(about: About, options: Options, watch: Watch): Promise<Profiled<Report>> {
-    return this.#about(about, watch, (life, progress, subject) => this.#plan(life, subject, options, progress));
+  /** Plans the layers of all plates. On failure or abort, masks and print files still belong to the previous plan. */
+  plan(job: Promise<Job>, watch: Watch): Promise<ProfiledPlates> {
+    return this.#calls.run(watch, job, (life, job, progress) => this.#plan(life, job, progress));
   }
 
-  tradeoff(about: About, options: Options, points: number, watch: Watch): Promise<Tradeoff> {
-    return this.ask(about, watch, (remote, progress) => remote.tradeoff(options, points, progress));
-  }
-
-  compare(about: About, options: Options, watch: Watch): Promise<Comparison> {
-    return this.ask(about, watch, (remote, progress) => remote.compare(options, progress));
-  }
-
-  /** The mask of a layer of the last good plan, and that plan. */
-  mask(layer: number, watch: Watch = {}): Promise<{ bits: Uint8Array; of: Planned }> {
+  /** The mask of a layer of a plate of the last good plan, and that plan. */
+  mask(plate: number, layer: number, watch: Watch = {}): Promise<{ bits: Uint8Array; of: Planned }> {
     return this.#calls.run(watch, null, async (life) => {
       const of = await this.#restorePlan(life, silent);
-      return { bits: await life.handle.remote.mask(layer), of };
+      return { bits: await life.handle.remote.mask(plate, layer), of };
     });
   }
 
-  /** A binary STL of plugs for the drain holes of the last good plan. */
-  plugs(watch: Watch): Promise<Uint8Array> {
-    return this.#calls.run(watch, null, async (life, _, progress) => {
-      await this.#restorePlan(life, progress);
-      return life.handle.remote.plugs();
+  /** A binary STL of plugs for the drain holes of a model in the last good plan. */
+  plugs(id: Promise<number>, watch: Watch): Promise<Uint8Array> {
+    return this.#calls.run(watch, id, async (life, id, progress) => {
+      const { models } = await this.#restorePlan(life, progress);
+      return life.handle.remote.plugs(placeOf(models, id));
     });
   }
 
-  /** What will fail when the last good plan is printed. */
-  inspect(limits: Limits, watch: Watch): Promise<Printability> {
+  /** What will fail when a plate of the last good plan is printed. */
+  inspect(plate: number, limits: Limits, watch: Watch): Promise<PlatePrintability> {
     return this.#calls.run(watch, null, async (life, _, progress) => {
       await this.#restorePlan(life, silent);
-      return life.handle.remote.inspect(limits, progress);
+      return life.handle.remote.inspect(plate, limits, progress);
     });
   }
 
-  /** The print file of the wanted plan, and that plan. */
-  archive(wanted: Wanted, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
-    return this.#calls.run(watch, wanted?.about ?? null, async (life, subject, progress) => {
-      const of = await this.#planFor(life, subject, wanted?.options, progress);
-      const blob = await life.handle.remote.archive(progress, null, this.#helpers, Comlink.proxy(this.#help));
+  /** The print file of a plate of the wanted plan, and that plan; null: the last one. */
+  archive(plate: number, wanted: Promise<Job> | null, watch: Watch): Promise<{ blob: Blob; of: Planned }> {
+    return this.#calls.run(watch, wanted, async (life, job, progress) => {
+      const of = await this.#planFor(life, job, progress);
+      const blob = await life.handle.remote.archive(plate, progress, null, this.#helpers, Comlink.proxy(this.#help));
       return { blob: blob ?? new Blob([]), of };
     });
   }
 
-  /** Passes the print file of the wanted plan to `take`, chunk by chunk. The core does not wait for a slow consumer. */
-  archiveTo(wanted: Wanted, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
-    return this.#calls.run(watch, wanted?.about ?? null, async (life, subject, progress) => {
-      await this.#planFor(life, subject, wanted?.options, progress);
+  /** Passes that print file to `take`, chunk by chunk. The core does not wait for a slow consumer. */
+  archiveTo(plate: number, wanted: Promise<Job> | null, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
+    return this.#calls.run(watch, wanted, async (life, job, progress) => {
+      await this.#planFor(life, job, progress);
       const chunks = told((chunk: Uint8Array) => take(chunk));
       try {
-        await life.handle.remote.archive(progress, chunks, this.#helpers, Comlink.proxy(this.#help));
+        await life.handle.remote.archive(plate, progress, chunks, this.#helpers, Comlink.proxy(this.#help));
       } finally {
         untold(chunks);
       }
@@ -146,12 +146,21 @@ export class Client {
     return this.#calls.run({}, null, async (life) => life.handle.remote.encodeGroup(format, canvas, runs));
   }
 
-  /** Runs a query that depends only on the subject; the last plan and its masks stay. */
-  ask<T>(about: About, watch: Watch, question: (remote: Remote, progress: OnProgress) => T | Promise<T>): Promise<T> {
-    return this.#about(about, watch, async (life, progress) => question(life.handle.remote, progress));
+  /** Runs a query about models that depends on no plan; the last plan and its masks stay. */
+  asks<N extends Job | readonly Loaded[], T>(needed: Promise<N>, watch: Watch, question: (remote: Remote, needed: N, progress: OnProgress) => T | Promise<T>): Promise<T> {
+    return this.#calls.run(watch, needed, async (life, needed, progress) => {
+      await this.#bring(life, "models" in needed ? needed.models : needed);
+      return question(life.handle.remote, needed, progress);
+    });
   }
 
-  /** The print file of the test towers, which needs no subject. */
+  /** The same about one model, in a worker that holds no other. */
+  ask<T>(about: About, watch: Watch, question: Question<T>): Promise<T> {
+    const alone = about.then((model) => [model]);
+    return this.asks(alone, watch, (remote, _, progress) => question(remote, 0, progress));
+  }
+
+  /** The print file of the test towers, which needs no model. */
   calibrateLayers(options: Options, watch: Watch): Promise<Written> {
     return this.#calls.run(watch, null, async (life, _, progress) => life.handle.remote.calibrateLayers(options, progress));
   }
@@ -160,7 +169,8 @@ export class Client {
   price(prices: Prices, { copies, finish }: Ordered, watch: Watch): Promise<Price> {
     return this.#calls.run(watch, null, async (life) => {
       if (this.#planned === null) throw new SlicerError("no-plan", "plan the layers first");
-      return life.handle.remote.price(prices, priceItems(this.#planned.report, copies), finish ?? null);
+      const items = this.#planned.report.plates.flatMap((report) => priceItems(report, copies));
+      return life.handle.remote.price(prices, items, finish ?? null);
     });
   }
 
@@ -168,12 +178,12 @@ export class Client {
     return this.#calls.run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 
-  /** Gives memory back, once running calls are over, if there is much: the model is needed no more. */
+  /** Gives memory back, once running calls are over, if there is much: no model is needed any more. */
   trim(): void {
     void this.#calls.trim();
   }
 
-  /** Terminates the worker. The next call starts another and restores the model, weights and plan that it needs. */
+  /** Terminates the worker. The next call starts another and restores the models, weights and plan that it needs. */
   rest(): void {
     this.#calls.rest();
   }
@@ -183,28 +193,40 @@ export class Client {
     this.#calls.dispose();
   }
 
-  async #plan(life: Life<Held>, subject: Subject, options: Options, progress: OnProgress): Promise<Profiled<Report>> {
+  async #plan(life: Life<Held>, { models, options }: Job, progress: OnProgress): Promise<ProfiledPlates> {
+    await this.#bring(life, models);
     // Until this succeeds, the core's plan is unknown.
     life.held.planned = null;
     const plan = await life.handle.remote.plan(options, progress);
-    life.held.planned = this.#planned = { subject, options, report: plan.report };
+    life.held.planned = this.#planned = { models, options, report: plan.report };
     return plan;
   }
 
-  /** Opens a file in place of the one that the worker holds. */
-  async #read(life: Life<Held>, file: ModelFile, progress: OnProgress, wantsPositions?: boolean): Promise<Opened> {
-    await shed(life, file.blob.size);
-    const opened = await life.handle.remote.open(file.blob, file.reading, progress, wantsPositions);
-    Object.assign(life.held, { file, weights: null, planned: null } satisfies Held);
-    return opened;
-  }
-
-  /** Opens the subject's file and sets its weights, unless the worker already has them. */
-  async #bring(life: Life<Held>, { file, weights }: Subject): Promise<void> {
-    if (life.held.file !== file) await this.#read(life, file, silent);
-    if (life.held.weights === weights) return;
-    await life.handle.remote.setWeights(weights);
-    life.held.weights = weights;
+  /** Removes models that are not among these, adds those that are missing, and sets weights where they differ. */
+  async #bring(life: Life<Held>, models: readonly Loaded[]): Promise<void> {
+    const { remote } = life.handle;
+    const { held } = life;
+    const isOver = held.models.some(({ id }, place) => id !== models[place]?.id);
+    if (isOver) await shed(life, models.reduce((sum, { file }) => sum + file.size, 0));
+    for (let place = 0; place < held.models.length; ) {
+      if (held.models[place]?.id === models[place]?.id) place++;
+      else {
+        held.planned = null;
+        await remote.remove(place);
+        held.models.splice(place, 1);
+      }
+    }
+    for (const { id, file, reading } of models.slice(held.models.length)) {
+      held.planned = null;
+      await remote.add(file, reading, silent);
+      held.models.push({ id, weights: null });
+    }
+    for (const [place, { weights }] of models.entries()) {
+      const there = held.models[place];
+      if (there === undefined || there.weights === weights) continue;
+      await remote.setWeights(place, weights);
+      there.weights = weights;
+    }
   }
 
   /** Replays the last successful plan, unless the worker already holds it. Throws `no-plan` if there is none. */
@@ -212,40 +234,28 @@ export class Client {
     const planned = this.#planned;
     if (planned === null) throw new SlicerError("no-plan", "plan the layers first");
     if (life.held.planned === planned) return planned;
-    await this.#bring(life, planned.subject);
+    await this.#bring(life, planned.models);
     await life.handle.remote.plan(planned.options, progress);
     life.held.planned = planned;
     return planned;
   }
 
-  /** Plans for these options, unless the last plan is for them; without options, the last plan serves. */
-  async #planFor(life: Life<Held>, subject: Subject | null, options: Options | undefined, progress: OnProgress): Promise<Planned> {
-    if (options === undefined) return this.#restorePlan(life, progress);
-    const now = present(subject);
-    const last = this.#planned;
-    const isLast = last?.subject.file === now.file && last.subject.weights === now.weights;
-    if (isLast && JSON.stringify(last.options) === JSON.stringify(options)) return this.#restorePlan(life, progress);
-    await this.#bring(life, now);
-    await this.#plan(life, now, options, progress);
+  /** Plans a job, unless the last plan is for it; without one, the last plan serves. */
+  async #planFor(life: Life<Held>, job: Job | null, progress: OnProgress): Promise<Planned> {
+    if (job !== null && !this.#isPlanned(job)) await this.#plan(life, job, progress);
     return this.#restorePlan(life, progress);
   }
 
-  /** Runs a task on a worker that holds the subject. */
-  #about<T>(
-    about: About,
-    watch: Watch,
-    task: (life: Life<Held>, progress: OnProgress, subject: Subject) => Promise<T>,
-  ): Promise<T> {
-    return this.#calls.run(watch, about, async (life, given, progress) => {
-      const subject = present(given);
-      await this.#bring(life, subject);
-      return task(life, progress, subject);
-    });
+  #isPlanned({ models, options }: Job): boolean {
+    const last = this.#planned;
+    const isSame = last?.models.length === models.length && models.every((model, place) => model === last.models[place]);
+    return isSame && JSON.stringify(last.options) === JSON.stringify(options);
   }
 }
 
-/** The subject of a call that needs one. Throws `no-model` if it is null. */
-export function present(subject: Subject | null): Subject {
-  if (subject === null) throw new SlicerError("no-model", "load a model first");
-  return subject;
+/** The place of a model. Throws `plate-no-model` if it is none of them. */
+export function placeOf(models: readonly Pick<Loaded, "id">[], id: number): number {
+  const place = models.findIndex((model) => model.id === id);
+  if (place >= 0) return place;
+  throw new SlicerError("plate-no-model", `there is no model ${id} on the plate`, { model_number: id, models: models.length });
 }

@@ -1,82 +1,21 @@
 import { expect, test } from "vitest";
+import { fakeReport, fakeWorkers } from "./fake-worker.js";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
-import { fakePlate } from "./fake-plate.js";
-import type { WorkerHandle } from "./calls.js";
-import type { Preview, Printability, MeshInfo, Options, Price, Report, SlicerWorker } from "./wire.js";
-
-/** A fake report: the width of its masks is the tolerance. */
-const reportOf = ({ tolerance = 9 }: Options): Report =>
-  ({
-    mask: { width: tolerance, height: 2 },
-    print_file: { format: "uvj", extension: "uvj", media_type: "application/octet-stream" },
-    warnings: [{ code: "inside-out" }],
-  }) as unknown as Report;
+import type { Options } from "./wire.js";
 
 /** A slicer over fake workers, whose memory is that of each, and a log of their calls. */
 function faked(memory_bytes = 0): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
-  let workers = 0;
-  const spawn = (): WorkerHandle => {
-    const number = ++workers;
-    const say = (what: string): void => void log.push(`${number}: ${what}`);
-    const remote: SlicerWorker = {
-      ...fakePlate(async (what) => say(what)),
-      memory: () => memory_bytes,
-      boot: async () => ({}),
-      rehearse: async () => say("rehearse"),
-      open: async (file, _reading, _progress, wantsPositions) => {
-        say(`open ${await file.text()}`);
-        const info = { facets: 1, search_bytes: 200 } as MeshInfo;
-        return wantsPositions === true ? { info, positions: new Float32Array(9) } : { info };
-      },
-      plan: async (options) => {
-        say(`plan ${options.tolerance}`);
-        return { report: reportOf(options), profile: new Float32Array(1) };
-      },
-      tradeoff: async (_options: Options, points) => {
-        say(`tradeoff ${points}`);
-        return { points: [] };
-      },
-      compare: () => Promise.reject(new Error("not faked")),
-      inspect: ({ wall_mm }) => {
-        say(`inspect ${wall_mm}`);
-        return { verdict: "review", findings: [], counts: [], bodies: 1, peel: {} as Printability["peel"] };
-      },
-      mask: () => new Uint8Array(4),
-      archive: (_progress, take) => {
-        say("archive");
-        for (const chunk of [Uint8Array.of(1), Uint8Array.of(2, 3)]) take?.(chunk);
-        return take === null ? new Blob(["zip"]) : null;
-      },
-      encodeGroup: () => new Uint8Array(1),
-      plugs: () => new Uint8Array(84),
-      positions: () => {
-        say("positions");
-        return new Float32Array(9);
-      },
-      preview: () => ({ report: {} as Preview, profile: new Float32Array() }),
-      saliency: () => Float32Array.of(0.5),
-      setWeights: (weights) => {
-        say(`setWeights ${weights === null ? "none" : [...weights].join()}`);
-        if (weights?.some((weight) => weight > 1)) throw { code: "weights-out-of-range", message: "no", detail: null };
-      },
-      weightsFile: (weights) => Uint8Array.from(weights, (weight) => 100 * weight),
-      readWeights: async (file) => Float32Array.from(new Uint8Array(await file.arrayBuffer()), (byte) => byte / 100),
-      startSearch: () => new Float64Array(0),
-      advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
-      evaluate: () => [],
-      calibrateLayers: async (options, progress) => {
-        say("towers");
-        progress("masks", 0.5, 0.75);
-        if (options.format === "sl1") throw { code: "uniform-only", message: "no", detail: null };
-        if (options.format === "ctb") await new Promise(() => undefined);
-        return { blob: new Blob(["towers"]), report: reportOf(options) };
-      },
-      printers: () => [],
-      price: () => ({ total: 1 }) as Price,
-    };
-    return { remote, terminate: () => say("ended"), onBroken: () => undefined };
-  };
+  const spawn = fakeWorkers(log, (_, work) => ({
+    memory: () => memory_bytes,
+    calibrateLayers: async (options, progress) => {
+      await work("towers");
+      progress("masks", 0.5, 0.75);
+      if (options.format === "sl1") throw { code: "uniform-only", message: "no", detail: null };
+      if (options.format === "ctb") await new Promise(() => undefined);
+      return { blob: new Blob(["towers"]), report: fakeReport({ options }) };
+    },
+  }));
   return { slicer: createSlicer({ spawn }), log };
 }
 
@@ -100,7 +39,7 @@ test("export() uses the last plan, or makes one for the given options", async ()
   await slicer.export({ tolerance: 1 });
   await slicer.export();
   await slicer.export({ tolerance: 2 });
-  expect(log).toEqual(["1: open a", "1: plan 1", "1: archive", "1: archive", "1: archive", "1: plan 2", "1: archive"]);
+  expect(log).toEqual(["1: add a", "1: plan 1 of a", "1: archive 0", "1: archive 0", "1: archive 0", "1: plan 2 of a", "1: archive 0"]);
 });
 
 test("a stream delivers the chunks in order", async () => {
@@ -108,7 +47,7 @@ test("a stream delivers the chunks in order", async () => {
   await slicer.load(new Blob(["a"]));
   const chunks: number[][] = [];
   for await (const chunk of slicer.exportStream({}) as unknown as AsyncIterable<Uint8Array>) chunks.push([...chunk]);
-  expect(chunks).toEqual([[1], [2, 3]]);
+  expect(chunks).toEqual([[...new TextEncoder().encode("z")], [...new TextEncoder().encode("ip")]]);
 });
 
 test("a stream that fails reports its error, and the slicer works on after a stream is cancelled", async () => {
@@ -123,11 +62,11 @@ test("a stream that fails reports its error, and the slicer works on after a str
 test("positions come from a worker of their own, which reads the model on first use", async () => {
   const { slicer, log } = faked();
   await slicer.load(new Blob(["a"]));
-  expect(log).toEqual(["1: open a"]);
+  expect(log).toEqual(["1: add a"]);
   await slicer.positions();
   await slicer.load(new Blob(["b"]));
   await slicer.positions();
-  expect(log).toEqual(["1: open a", "2: open a", "2: positions", "1: open b", "2: open b", "2: positions"]);
+  expect(log).toEqual(["1: add a", "2: add a", "2: positions of a", "1: add b", "1: remove a", "2: remove a", "2: add b", "2: positions of b"]);
 });
 
 test("the worker of previews gives its memory back when another model is loaded", async () => {
@@ -144,7 +83,7 @@ test("a model comes with its positions if they are asked for, from the worker th
   const { positions, info } = await slicer.load(new Blob(["a"]), { positions: true });
   expect([positions?.length, info.facets]).toEqual([9, 1]);
   expect(await slicer.load(new Blob(["b"]))).not.toHaveProperty("positions");
-  expect(log).toEqual(["1: open a", "1: open b"]);
+  expect(log).toEqual(["1: add a", "1: add b", "1: remove a"]);
 });
 
 test("weights are copied, apply to all later calls, and make export() plan again", async () => {
@@ -158,9 +97,9 @@ test("weights are copied, apply to all later calls, and make export() plan again
   await slicer.preview();
   await slicer.setWeights(null);
   await slicer.export({ tolerance: 1 });
-  const main = ["1: open a", "1: setWeights 0.5", "1: plan 1", "1: archive", "1: setWeights none", "1: plan 1", "1: archive"];
+  const main = ["1: add a", "1: weigh a 0.5", "1: plan 1 of a*0.5", "1: archive 0", "1: weigh a equally", "1: plan 1 of a", "1: archive 0"];
   expect(log.filter((line) => line.startsWith("1"))).toEqual(main);
-  expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: open a", "2: setWeights 0.5"]);
+  expect(log.filter((line) => line.startsWith("2"))).toEqual(["2: add a", "2: weigh a 0.5", "2: preview a"]);
 });
 
 test("weights that the core refuses are dropped, and a newly opened model has none", async () => {
@@ -171,7 +110,7 @@ test("weights that the core refuses are dropped, and a newly opened model has no
   await slicer.plan({ tolerance: 1 });
   await slicer.load(new Blob(["b"]));
   await slicer.plan({ tolerance: 1 });
-  expect(log).toEqual(["1: open a", "1: setWeights 0.5", "1: setWeights 2", "1: plan 1", "1: open b", "1: plan 1"]);
+  expect(log).toEqual(["1: add a", "1: weigh a 0.5", "1: weigh a 2", "1: plan 1 of a*0.5", "1: add b", "1: remove a", "1: plan 1 of b"]);
 });
 
 test("a print file uses the weights of its plan, even from a fresh worker", async () => {
@@ -186,12 +125,12 @@ test("a print file uses the weights of its plan, even from a fresh worker", asyn
   await slicer.plan({ tolerance: 2 });
   const after = log.slice(log.indexOf("1: ended"));
   expect(after.filter((line) => !line.endsWith("ended"))).toEqual([
-    "2: open a",
-    "2: setWeights 0.25",
-    "2: plan 1",
-    "2: archive",
-    "2: setWeights none",
-    "2: plan 2",
+    "2: add a",
+    "2: weigh a 0.25",
+    "2: plan 1 of a*0.25",
+    "2: archive 0",
+    "2: weigh a equally",
+    "2: plan 2 of a",
   ]);
 });
 
@@ -208,9 +147,9 @@ test.each([1.5, -1, NaN, Infinity, "3", null])("a layer or plate %o is refused b
   const layer = value as number;
   const refused = (argument: string): unknown => ({ code: "bad-number", detail: { argument, value } });
   await expect(slicer.mask(layer)).rejects.toMatchObject(refused("layer") as object);
-  await expect(slicer.plate.mask(0, layer)).rejects.toMatchObject(refused("layer") as object);
-  await expect(slicer.plate.mask(layer, 0)).rejects.toMatchObject(refused("plate") as object);
-  await expect(slicer.plate.export(layer)).rejects.toMatchObject(refused("plate") as object);
+  await expect(slicer.mask(0, { plate: layer })).rejects.toMatchObject(refused("plate") as object);
+  await expect(slicer.check({}, { plate: layer })).rejects.toMatchObject(refused("plate") as object);
+  await expect(slicer.export(undefined, { plate: layer })).rejects.toMatchObject(refused("plate") as object);
   expect(log).toEqual([]);
 });
 
@@ -261,7 +200,7 @@ test("test towers leave the model and the last plan alone, also if they fail or 
   abort.abort();
   await outcome;
   await slicer.export();
-  expect(log).toEqual(["1: open a", "1: plan 1", "2: towers", "2: towers", "2: towers", "2: ended", "1: archive"]);
+  expect(log).toEqual(["1: add a", "1: plan 1 of a", "2: towers", "2: towers", "2: towers", "2: ended", "1: archive 0"]);
 });
 
 test("calls keep their order without await: those after a load use its model", async () => {
@@ -279,10 +218,10 @@ test("calls keep their order without await: those after a load use its model", a
   expect((await mask).width).toBe(3);
   await file;
   await slicer.plan({ tolerance: 4 });
-  const main = ["open a", "open b", "plan 1", "plan 2", "archive", "plan 3", "open c", "plan 4"];
-  const positions = log.find((line) => line.endsWith(": positions"))?.[0] ?? "";
+  const main = ["add a", "add b", "remove a", "plan 1 of b", "plan 2 of b", "archive 0", "plan 3 of b", "mask 0 of plate 0, 3", "add c", "remove b", "plan 4 of c"];
+  const positions = log.find((line) => line.endsWith(": positions of b"))?.[0] ?? "";
   expect(log.filter((line) => line.startsWith("1")).map((line) => line.slice(3))).toEqual(main);
-  expect(log).toContain(`${positions}: open b`);
+  expect(log).toContain(`${positions}: add b`);
 });
 
 test("weights apply to the calls made after them, and a failed load changes nothing", async () => {
@@ -295,5 +234,5 @@ test("weights apply to the calls made after them, and a failed load changes noth
   const planned = slicer.plan({ tolerance: 3 });
   await expect(failed).rejects.toMatchObject({ code: "fetch-failed" });
   await planned;
-  expect(log).toEqual(["1: open a", "1: plan 1", "1: setWeights 0.5", "1: plan 2", "1: plan 3"]);
+  expect(log).toEqual(["1: add a", "1: plan 1 of a", "1: weigh a 0.5", "1: plan 2 of a*0.5", "1: plan 3 of a*0.5"]);
 });

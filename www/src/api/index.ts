@@ -8,54 +8,75 @@
  *     const { name, blob } = await slicer.export();
  *     slicer.dispose();
  *
- * Lengths are in mm, times in s. A call takes its place in the queue when it is made: it uses the model of the last `load()`
- * and the weights of the last `setWeights()` before it, awaited or not. Every call rejects with a `SlicerError`, or with the
- * signal's reason if it was aborted; the previous model and plan stay. Without a browser, as in server-side rendering, a slicer
+ * Several models, or copies, are one job:
+ *
+ *     await slicer.load(cup);
+ *     await slicer.add(ring, { copies: 20 });
+ *     const { plates } = await slicer.plan({ printer: "saturn-3-ultra" });
+ *     const { name, blob } = await slicer.export(undefined, { plate: 0 });
+ *
+ * Lengths are in mm, times in s. A call takes its place in the queue when it is made: it is about the models that were loaded, added,
+ * changed and removed before it, with the weights set before it, awaited or not. Every call rejects with a `SlicerError`, or with the
+ * signal's reason if it was aborted; the previous models and plan stay. Without a browser, as in server-side rendering, a slicer
  * can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
 import type { Compiled, WorkerHandle, Watch } from "./calls.js";
-import { Client, type About, type Wanted } from "./client.js";
-import { checkWhole } from "./error.js";
-import { measure, orient, type OrientCall } from "./orient.js";
+import { Client, placeOf, type About, type Job, type Loaded as Held, type Weights } from "./client.js";
+import { checkWhole, SlicerError } from "./error.js";
+import { measure, orient, type OrientCall as Orienting } from "./orient.js";
 import type { Helpers } from "./helpers.js";
-import { fetchedPlate } from "./fetched-plate.js";
-import type { AddCall, ModelChange, Plate, PlateModel } from "./plate.js";
 import { Pool } from "./pool.js";
 import type { Ordered } from "./price.js";
 import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
-import type { Candidate, Comparison, KnownPrinter, Limits, MeshInfo, Options, Preview, Price, Prices, Printability, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Tradeoff } from "./wire.js";
+import type { ArrangeError, Arranging, Candidate, Comparison, JobOptions, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
 export type { IndexedFacets, Source } from "./source.js";
 export type { Watch } from "./calls.js";
-export type { Found, OrientCall } from "./orient.js";
-export type { AddCall, ModelChange, Plate, PlateCall, PlateCheck, PlateModel, PlatesPlan } from "./plate.js";
-export type { Ordered, OrderedPlates } from "./price.js";
+export type { Found } from "./orient.js";
+export type { Ordered } from "./price.js";
 export { SCHEMA, type Mask, type PrintFile } from "./results.js";
 export type * from "./wire.js";
 
 /** A model as read from its file. */
 export interface Model extends Versioned {
+  /** Tells it from the others for as long as the slicer lives. */
+  id: number;
   name: string;
   /** The file that it was read from, for a page that sends a model along with its plan. */
   file: Blob;
   /** The choices with which it was read. */
   reading: ReadOptions;
   info: MeshInfo;
+  /** How it differs from the options of the job, and its number of copies. */
+  own: ModelOptions;
 }
 
-/** A plan. `report.backend` says what cast the rays, `cpu` or `gpu`, `report.adapter` which GPU, and `report.gpu_method` how. */
-export interface Plan extends Versioned, Profiled<Report> {}
+/** What to change of a model's own options; `undefined` leaves it to the job's. */
+export type ModelChange = { [Name in keyof ModelOptions]?: ModelOptions[Name] | undefined };
+
+/**
+ * A plan. Of each plate, `report.backend` says what cast the rays, `cpu` or `gpu`, `report.adapter` which GPU, and `report.gpu_method`
+ * how. `report` and `profile` are those of the first plate.
+ */
+export interface Plan extends Versioned, Profiled<Report>, Shells {
+  /** One for each plate. `report.plate` has its models, where each copy stands, and each copy's share of time and resin; a single copy in the middle has none. */
+  plates: Profiled<Report>[];
+  /** Print time of all plates, one after the other. */
+  print_time_s: number;
+  /** Volume of resin in all copies. */
+  resin_ml: number;
+}
 
 /** A plan from the facets alone, for live updates while a model is being turned. */
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
-/** What will fail when a plan is printed, and the verdict. */
-export interface Check extends Versioned, Printability {}
+/** What will fail when a plate is printed, model by model, and the verdict. */
+export interface Check extends Versioned, PlatePrintability {}
 
 /** The result of an orientation search. */
 export interface OrientationReport extends Versioned, SearchResult {}
@@ -69,7 +90,7 @@ export interface TestTowers extends PrintFile {
   report: Report;
 }
 
-/** A model that was read, with what was asked for. */
+/** A model that was read, with its positions if they were asked for. */
 export interface Loaded extends Model {
   /** The corners of all facets, as `positions()` gives them. */
   positions?: Float32Array;
@@ -84,28 +105,57 @@ export interface LoadCall extends Watch {
   positions?: boolean;
 }
 
+/** A call about a model. */
+export interface ModelCall extends Watch {
+  /** The model, by its `id`; the first if absent. */
+  model?: number | undefined;
+}
+
+/** A call about a plate of the last plan. */
+export interface PlateCall extends Watch {
+  /** The plate, counted from 0; the first if absent. */
+  plate?: number | undefined;
+}
+
+/** How copies are arranged, or where they stand. */
+export interface PlanCall extends Watch {
+  arranging?: Arranging | undefined;
+  /** Where each copy stands: `model` is the place of its model in `models()`, from 0. If empty, copies are arranged; a single one stands in the middle. */
+  placements?: readonly Placement[] | undefined;
+}
+
+export interface OrientCall extends Orienting, ModelCall {}
+
 export interface Slicer {
-  /** Several models in one job. They and the model of {@link load} leave each other alone. */
-  readonly plate: Plate;
-  /** Adds a model to the plate: `plate.add()`. */
-  add(source: Source, own?: ModelChange, call?: AddCall): Promise<PlateModel>;
-  /** Reads a model: 3MF, OBJ or STL. */
+  /** Reads a model, 3MF, OBJ or STL, in place of all others. */
   load(source: Source, call?: LoadCall): Promise<Loaded>;
-  /** Plans the layers of the model. A change of options recomputes only what depends on it. */
-  plan(options?: Options, call?: Watch): Promise<Plan>;
+  /** Reads a model and adds it after the others. */
+  add(source: Source, own?: ModelChange, call?: LoadCall): Promise<Loaded>;
+  /** Changes some of what a model has of its own. Rejects with `plate-no-model` if there is no such model. */
+  update(id: number, own: ModelChange): Promise<Model>;
+  /** Rejects with `plate-no-model` if there is no such model. */
+  remove(id: number): Promise<void>;
+  /** The models in their order. */
+  models(): Promise<readonly Model[]>;
+  /** Where copies stand when they are arranged: on the fewest plates, then lowest. */
+  arrange(options?: Options, arranging?: Arranging, call?: Watch): Promise<Placement[]>;
+  /** What is wrong with placements: copies that extend beyond their plate, and copies that overlap. */
+  problems(options: Options, placements: readonly Placement[], call?: Watch): Promise<ArrangeError[]>;
+  /** Plans the layers of all plates. A change of options recomputes only what depends on it. */
+  plan(options?: Options, call?: PlanCall): Promise<Plan>;
   /** The mask of a layer of the last plan, counted from 0. */
-  mask(layer: number, call?: Watch): Promise<Mask>;
+  mask(layer: number, call?: PlateCall): Promise<Mask>;
   /**
-   * What will fail when the last plan is printed, and where, on the masks and layers of the plan. `limits` are what a shop accepts;
-   * those left out have the defaults.
+   * What will fail when a plate of the last plan is printed, and where, on the masks and layers of the plan. `limits` are what a shop
+   * accepts; those left out have the defaults.
    */
-  check(limits?: Limits, call?: Watch): Promise<Check>;
-  /** The best plans for `points` tolerances (40 by default), from the tightest feasible to the loosest that saves a layer. */
-  tradeoff(options?: Options, points?: number, call?: Watch): Promise<Tradeoff & Versioned>;
-  /** The plans of all planners side by side. */
-  compare(options?: Options, call?: Watch): Promise<Comparison & Versioned>;
+  check(limits?: Limits, call?: PlateCall): Promise<Check>;
+  /** The best plans of a plate for `points` tolerances (40 by default), from the tightest feasible to the loosest that saves a layer. */
+  tradeoff(options?: Options, points?: number, call?: PlanCall & PlateCall): Promise<Tradeoff & Versioned>;
+  /** The plans of all planners side by side, for a plate. */
+  compare(options?: Options, call?: PlanCall & PlateCall): Promise<Comparison & Versioned>;
   /**
-   * Searches for the best orientations, weighing layers or print time against surface quality. It runs in workers of its
+   * Searches for the best orientations of a model, weighing layers or print time against surface quality. It runs in workers of its
    * own, so that no other call waits for it; the result does not depend on their number. To plan for a candidate, set
    * `options.rotation` to its `rotation` and, if the options have a `height_mm`, set that to its `size_mm[2]`.
    */
@@ -114,54 +164,56 @@ export interface Slicer {
    * Measures one direction as a search does, so that any pose can be compared with its candidates. `direction` is the unit vector
    * that points up from the plate, in the file's frame. The candidate has no `energy`, which is relative to others.
    */
-  measure(options: Options, direction: Readonly<Candidate["direction"]>, call?: Watch): Promise<Candidate>;
-  /** The print file of the last plan. With options, that of a plan for those, made first unless it is the last one. */
-  export(options?: Options, call?: Watch): Promise<PrintFile>;
+  measure(options: Options, direction: Readonly<Candidate["direction"]>, call?: ModelCall): Promise<Candidate>;
+  /** The print file of a plate of the last plan. With options, that of a plan for those, made first unless it is the last one. */
+  export(options?: Options, call?: PlanCall & PlateCall): Promise<PrintFile>;
+  /** The print files of all plates of the last plan, each made when it is read. */
+  exportAll(call?: Watch): ReadableStream<PrintFile>;
   /**
-   * The print file of the same plan as {@link export}, as a stream of its chunks. The core does not wait for a slow reader:
+   * The same print file as {@link export}, as a stream of its chunks. The core does not wait for a slow reader:
    * unread chunks stay in memory. Cancelling the stream aborts the call.
    */
-  exportStream(options?: Options, call?: Watch): ReadableStream<Uint8Array>;
+  exportStream(options?: Options, call?: PlanCall & PlateCall): ReadableStream<Uint8Array>;
   /**
-   * A binary STL of a plug for each drain hole of the last plan, upright in a row on the plate, to print and glue in: what
+   * A binary STL of a plug for each drain hole of a model in the last plan, upright in a row on the plate, to print and glue in: what
    * `cusp slice --plugs` writes. Without holes it has no facets.
    */
-  plugs(call?: Watch): Promise<Uint8Array>;
-  /** The corners of all facets in mm, nine numbers per facet, in the file's frame. */
-  positions(call?: Watch): Promise<Float32Array>;
+  plugs(call?: ModelCall): Promise<Uint8Array>;
+  /** The corners of all facets of a model in mm, nine numbers per facet, in the file's frame. */
+  positions(call?: ModelCall): Promise<Float32Array>;
   /**
-   * A plan from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()`, `calibrateLayers()` and
-   * the calls for weight files, and does not wait for other plans.
+   * A plan of a model from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()`, `calibrateLayers()`
+   * and the calls for weight files, and does not wait for other plans.
    */
-  preview(options?: Options, call?: Watch): Promise<PreviewedPlan>;
+  preview(options?: Options, call?: ModelCall): Promise<PreviewedPlan>;
   /** How much each facet stands out, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
-  saliency(call?: Watch): Promise<Float32Array>;
+  saliency(call?: ModelCall): Promise<Float32Array>;
   /**
-   * Sets how much each facet matters to all later calls, 0 to 1 in the order of `positions()`; null: all equally. The
+   * Sets how much each facet of a model matters to all later calls, 0 to 1 in the order of `positions()`; null: all equally. The
    * tolerance holds where the weight is 1 and is looser elsewhere, never more than `options.weight_min` allows. Weights are
-   * copied, and belong to the open model. Resolves once the core has accepted them; if it refuses, the previous weights stay.
+   * copied, and belong to the model. Resolves once the core has accepted them; if it refuses, the previous weights stay.
    */
-  setWeights(weights: Float32Array | null, call?: Watch): Promise<void>;
-  /** A small file of these weights, bound to the open model. */
-  weightsFile(weights: Float32Array, call?: Watch): Promise<Blob>;
-  /** Reads the weights of such a file, which must belong to the open model; `setWeights()` applies them. */
-  readWeights(file: Source, call?: Watch): Promise<Float32Array>;
+  setWeights(weights: Float32Array | null, call?: ModelCall): Promise<void>;
+  /** A small file of these weights, bound to the model. */
+  weightsFile(weights: Float32Array, call?: ModelCall): Promise<Blob>;
+  /** Reads the weights of such a file, which must belong to the model; `setWeights()` applies them. */
+  readWeights(file: Source, call?: ModelCall): Promise<Float32Array>;
   /**
    * The print file of test towers, which tell whether a printer prints layers of several thicknesses. It needs no model, and leaves
-   * the open one and its plan alone. Of the options, printer, screen, format and resin count. Rejects with `uniform-only` if the
+   * the job and its plan alone. Of the options, printer, screen, format and resin count. Rejects with `uniform-only` if the
    * format has one thickness for all layers.
    */
   calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
   /**
-   * What the last plan costs by the prices of a shop: docs/price.md defines the formula. The same code on a server computes the same
-   * (`cusp verify --prices`).
+   * What the last plan costs by the prices of a shop: docs/price.md defines the formula. Copies on plates have their shares of time. The
+   * same code on a server computes the same (`cusp verify --prices`).
    */
   price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
   /** Starts the worker before it is needed, and has the browser compile what a plan needs once the page is idle. */
   warm(): void;
-  /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the model and the plan. */
+  /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the models and the plan. */
   rest(): void;
   /** Terminates the workers for good: running and later calls reject with an `AbortError`. */
   dispose(): void;
@@ -218,66 +270,137 @@ export function createSlicer(setup: Setup = {}): Slicer {
   // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
   const side = client();
   const pool = new Pool(client, workers);
-  const plate = fetchedPlate(async () => (await import("./plate.js")).createPlate(spawn, compiled));
-  /** The subject of a call made now, resolved once earlier loads have settled. */
-  let about: About = Promise.resolve(null);
+  /** The models of a call made now, resolved once earlier calls have settled. */
+  let models: Promise<readonly Entry[]> = Promise.resolve([]);
+  let added = 0;
 
-  const wanted = (options: Options | undefined): Wanted => (options === undefined ? null : { about, options });
+  const about = (id: number | undefined): About => models.then((all) => modelOf(all, id));
+  const job = (options: Options, { arranging, placements = [] }: PlanCall = {}): Promise<Job> =>
+    models.then((models) => {
+      if (models.length === 0) throw noModel();
+      const own = models.map(({ own }) => own);
+      return { models, options: { options, models: own, ...(arranging !== undefined && { arranging }), placements: [...placements] } satisfies JobOptions };
+    });
+  const wanted = (options: Options | undefined, call: PlanCall): Promise<Job> | null => (options === undefined ? null : job(options, call));
+
+  /** Reads a model, after the others or in their place. */
+  const read = async (isAlone: boolean, source: Source, own: ModelChange, call: LoadCall): Promise<Loaded> => {
+    const { name, reading = {}, positions, ...watch } = call;
+    const id = ++added;
+    const before = models;
+    const named = resolve(source, watch.signal);
+    const opened = main.add(isAlone ? null : before, id, named.then(({ file }) => file), reading, watch, positions);
+    const entry = Promise.all([named, opened]).then(
+      ([it, { info }]): Entry => ({ schema: SCHEMA, id, name: name ?? it.name, file: it.file, reading, info, search_bytes: info.search_bytes, own: merged({}, own), weights: null }),
+    );
+    models = Promise.all([before, entry]).then(
+      ([all, entry]) => (isAlone ? [entry] : [...all, entry]),
+      () => before,
+    );
+    const [model, { info: _, ...more }] = await Promise.all([entry, opened]);
+    return { ...seen(model), ...more };
+  };
+
+  /** Replaces a model; `null` removes it. */
+  const change = (id: number | undefined, changed: (entry: Entry) => Entry | null): Promise<Entry | null> => {
+    const before = models;
+    const outcome = before.then((all) => {
+      const place = placeOf(all, modelOf(all, id).id);
+      const entry = changed(all[place] as Entry);
+      const rest = all.filter((_, other) => other !== place);
+      return { entry, all: entry === null ? rest : all.map((it, other) => (other === place ? entry : it)) };
+    });
+    models = outcome.then(
+      ({ all }) => all,
+      () => before,
+    );
+    return outcome.then(({ entry }) => entry);
+  };
 
   return {
-    plate,
-    add: (source, own, call) => plate.add(source, own, call),
-    async load(source, { name, positions, reading = {}, ...call } = {}) {
-      const before = about;
-      const named = resolve(source, call.signal);
-      const file = named.then(({ file: blob }) => ({ blob, reading }));
-      const opened = main.open(file, call, positions);
-      const loaded = Promise.all([named, opened]).then(([it, opened]) => ({ ...it, name: name ?? it.name, reading, ...opened }));
-      about = Promise.all([file, loaded]).then(
-        ([file, { name, info }]) => ({ name, file, search_bytes: info.search_bytes, weights: null }),
-        () => before,
-      );
-      const result = { schema: SCHEMA, ...(await loaded) } as const;
+    async load(source, call = {}) {
+      const loaded = await read(true, source, {}, call);
       side.trim();
-      return result;
+      return loaded;
     },
+    add: (source, own = {}, call = {}) => read(false, source, own, call),
+    async update(id, own) {
+      return seen((await change(id, (entry) => ({ ...entry, own: merged(entry.own, own) }))) as Entry);
+    },
+    async remove(id) {
+      await change(id, () => null);
+      if ((await models).length === 0) main.trim();
+    },
+    models: () => models.then((all) => all.map(seen)),
+    arrange: (options = {}, arranging, call = {}) => main.asks(job(options, { arranging }), call, (remote, { options }) => remote.arrange(options)),
+    problems: (options, placements, call = {}) => main.asks(job(options, { placements }), call, (remote, { options }) => remote.problems(options)),
     async plan(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await main.plan(about, options, call)) };
+      const { report, profiles, ...shells } = await main.plan(job(options, call), call);
+      const { print_time_s, resin_ml } = report;
+      const plates = report.plates.map((report, plate) => ({ report, profile: profiles[plate] ?? new Float32Array(0) }));
+      const [first] = plates;
+      if (first === undefined) throw new Error("a plan without plates");
+      return { schema: SCHEMA, ...first, plates, print_time_s, resin_ml, ...shells };
     },
-    async mask(layer, call = {}) {
+    async mask(layer, { plate = 0, ...watch } = {}) {
+      checkWhole("plate", plate);
       checkWhole("layer", layer);
-      const { bits, of } = await main.mask(layer, call);
-      const { width, height } = of.report.mask;
+      const { bits, of } = await main.mask(plate, layer, watch);
+      const { width, height } = reportOf(of.report.plates, plate).mask;
       return { layer, width, height, bits };
     },
-    async check(limits = {}, call = {}) {
-      return { schema: SCHEMA, ...(await main.inspect(limits, call)) };
+    async check(limits = {}, { plate = 0, ...watch } = {}) {
+      checkWhole("plate", plate);
+      return { schema: SCHEMA, ...(await main.inspect(plate, limits, watch)) };
     },
     async tradeoff(options = {}, points = CURVE_POINTS, call = {}) {
-      return { schema: SCHEMA, ...(await main.tradeoff(about, options, points, call)) };
+      const { plate = 0 } = call;
+      checkWhole("plate", plate);
+      return { schema: SCHEMA, ...(await main.asks(job(options, call), call, (remote, { options }, progress) => remote.tradeoff(plate, options, points, progress))) };
     },
     async compare(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await main.compare(about, options, call)) };
+      const { plate = 0 } = call;
+      checkWhole("plate", plate);
+      return { schema: SCHEMA, ...(await main.asks(job(options, call), call, (remote, { options }, progress) => remote.compare(plate, options, progress))) };
     },
     async orient(options = {}, search = {}, call = {}) {
-      return { schema: SCHEMA, ...(await orient(pool, about, options, search, call)) };
+      return { schema: SCHEMA, ...(await orient(pool, about(call.model), options, search, call)) };
     },
-    measure: (options, direction, call = {}) => measure(pool, about, options, direction, call),
+    measure: (options, direction, call = {}) => measure(pool, about(call.model), options, direction, call),
     async export(options, call = {}) {
-      const { blob, of } = await main.archive(wanted(options), call);
-      return printFile(`${stemOf(of.subject.name)}-cusp`, blob, of.report);
+      const { plate = 0 } = call;
+      checkWhole("plate", plate);
+      const { blob, of } = await main.archive(plate, wanted(options, call), call);
+      return printFile(`${stemOfPlate(plate, of.report.plates, of.models)}-cusp`, blob, reportOf(of.report.plates, plate));
+    },
+    exportAll(call = {}) {
+      let plate = 0;
+      return new ReadableStream<PrintFile>(
+        {
+          async pull(controller) {
+            const { blob, of } = await main.archive(plate, null, call);
+            const { plates } = of.report;
+            controller.enqueue(printFile(`${stemOfPlate(plate, plates, of.models)}-cusp`, blob, reportOf(plates, plate)));
+            if (++plate >= plates.length) controller.close();
+          },
+        },
+        { highWaterMark: 0 },
+      );
     },
     exportStream(options, call = {}) {
+      const { plate = 0 } = call;
       const gone = new AbortController();
       const signal = call.signal === undefined ? gone.signal : AbortSignal.any([call.signal, gone.signal]);
+      const planned = wanted(options, call);
       return new ReadableStream<Uint8Array>({
         async start(controller) {
           try {
+            checkWhole("plate", plate);
             // Drop chunks that arrive after an abort.
             const take = (chunk: Uint8Array): void => {
               if (!signal.aborted) controller.enqueue(chunk);
             };
-            await main.archiveTo(wanted(options), take, { ...call, signal });
+            await main.archiveTo(plate, planned, take, { ...call, signal });
             controller.close();
           } catch (error) {
             if (!gone.signal.aborted) controller.error(error);
@@ -286,31 +409,37 @@ export function createSlicer(setup: Setup = {}): Slicer {
         cancel: () => gone.abort(),
       });
     },
-    plugs: (call = {}) => main.plugs(call),
-    positions: (call = {}) => side.ask(about, call, (remote) => remote.positions()),
-    async preview(options = {}, call = {}) {
-      return { schema: SCHEMA, ...(await side.ask(about, call, (remote) => remote.preview(options))) };
+    plugs: ({ model, ...watch } = {}) => main.plugs(about(model).then(({ id }) => id), watch),
+    positions: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote, place) => remote.positions(place)),
+    async preview(options = {}, { model, ...watch } = {}) {
+      return { schema: SCHEMA, ...(await side.ask(about(model), watch, (remote, place) => remote.preview(place, options))) };
     },
-    saliency: (call = {}) => side.ask(about, call, (remote, progress) => remote.saliency(progress)),
-    setWeights(weights, call = {}) {
-      const before = about;
-      const own = weights?.slice() ?? null;
-      const painted = (about = before.then((subject) => (subject === null ? null : { ...subject, weights: own })));
-      const taken = main.setWeights(painted, call);
-      taken.catch(() => {
+    saliency: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote, place, progress) => remote.saliency(place, progress)),
+    async setWeights(weights, { model, ...watch } = {}) {
+      const before = models;
+      const own: Weights = weights?.slice() ?? null;
+      const changed = change(model, (entry) => ({ ...entry, weights: own }));
+      changed.catch(() => undefined);
+      const painted = models;
+      try {
+        const sent = main.bring(painted, watch);
+        await changed;
+        await sent;
+      } catch (error) {
         // Refused weights do not apply to later calls.
-        if (about === painted) about = before;
-      });
-      return taken;
+        if (models === painted) models = before;
+        throw error;
+      }
     },
-    async weightsFile(weights, call = {}) {
-      const bytes = await side.ask(about, call, (remote) => remote.weightsFile(weights));
+    async weightsFile(weights, { model, ...watch } = {}) {
+      const bytes = await side.ask(about(model), watch, (remote, place) => remote.weightsFile(place, weights));
       return new Blob([bytes as Uint8Array<ArrayBuffer>]);
     },
-    readWeights(source, call = {}) {
-      const now = about;
-      const named = resolve(source, call.signal);
-      return named.then(({ file }) => side.ask(now, call, (remote) => remote.readWeights(file)));
+    readWeights(source, { model, ...watch } = {}) {
+      const now = about(model);
+      now.catch(() => undefined);
+      const named = resolve(source, watch.signal);
+      return named.then(({ file }) => side.ask(now, watch, (remote, place) => remote.readWeights(place, file)));
     },
     async calibrateLayers(options = {}, call = {}) {
       const { blob, report } = await side.calibrateLayers(options, call);
@@ -323,17 +452,53 @@ export function createSlicer(setup: Setup = {}): Slicer {
       main.rest();
       side.rest();
       void helpers?.then((it) => it.rest(), () => undefined);
-      plate.rest();
       pool.rest();
     },
     dispose() {
       main.dispose();
       side.dispose();
       void helpers?.then((it) => it.dispose(), () => undefined);
-      plate.dispose();
       pool.dispose();
     },
   };
+}
+
+/** A model with what callers do not see of it. */
+type Entry = Held & Model;
+
+/** What a page sees of a model: the weights are the slicer's. */
+function seen({ schema, id, name, file, reading, info, own }: Entry): Model {
+  return { schema, id, name, file, reading, info, own };
+}
+
+/** The options of a model with some of them changed. */
+function merged(before: ModelOptions, changed: ModelChange): ModelOptions {
+  const all = Object.entries({ ...before, ...changed });
+  return Object.fromEntries(all.filter(([, value]) => value !== undefined));
+}
+
+/** A model by its number, or the first. */
+function modelOf(all: readonly Entry[], id: number | undefined): Entry {
+  const model = id === undefined ? all[0] : all[placeOf(all, id)];
+  if (model === undefined) throw noModel();
+  return model;
+}
+
+const noModel = (): SlicerError => new SlicerError("no-model", "load a model first");
+
+/** The report of a plate that the core has just served. */
+function reportOf(reports: readonly Report[], plate: number): Report {
+  const report = reports[plate];
+  if (report === undefined) throw new Error(`there is no plate ${plate}`);
+  return report;
+}
+
+/** The name of the only model, or of the plate. */
+function stemOfPlate(plate: number, reports: readonly Report[], models: readonly Held[]): string {
+  const [only, ...others] = reportOf(reports, plate).plate?.models ?? models.map((_, model) => ({ model }));
+  const isOne = others.length === 0 && reports.length === 1;
+  const name = only === undefined ? undefined : models[only.model]?.name;
+  return isOne && name !== undefined ? stemOf(name) : `plate-${plate + 1}`;
 }
 
 /** The name of the printer that the options have, for the name of a file. */

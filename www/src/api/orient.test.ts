@@ -1,10 +1,10 @@
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import type { WorkerHandle } from "./calls.js";
-import { fakePlate } from "./fake-plate.js";
+import { fakeWorker } from "./fake-worker.js";
 import { createSlicer, type OrientCall, type Slicer } from "./index.js";
 import { workersFor } from "./pool.js";
 import { packed, unpackedMeasured } from "./candidates.js";
-import type { Candidate, MeshInfo, Preview, Profiled, Report, SearchStep, Task, TaskResult } from "./wire.js";
+import type { Candidate, MeshInfo, Preview, Report, SearchStep, Task, TaskResult } from "./wire.js";
 
 const COUNT = 100;
 const FACETS = 12;
@@ -117,16 +117,16 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       throw new Error("not asked for by a search");
     };
     const remote: WorkerHandle["remote"] = {
-      ...fakePlate(unused),
+      ...fakeWorker(unused),
       memory: () => 0,
       boot: async () => ({}),
       rehearse: unused,
-      open: async (file) => {
+      add: async (file) => {
         const text = await file.text();
-        return work(`open ${text}`, () => ({ info: { facets: FACETS, search_bytes: 0 } as MeshInfo }));
+        return work(`add ${text}`, () => ({ info: { facets: FACETS, search_bytes: 0 } as MeshInfo }));
       },
-      setWeights: (weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
-      startSearch: (_options, { directions = COUNT }, measured) => {
+      setWeights: (_model, weights) => void log.push(`${number}: setWeights ${weights?.join() ?? "none"}`),
+      startSearch: (_model, _options, { directions = COUNT }, measured) => {
         search = new FakeSearch(directions, within, measured === null ? null : unpackedMeasured(measured));
         return Float64Array.from({ length: 3 * directions }, (_, i) => (i % 3 === 0 ? i / 3 : 0));
       },
@@ -135,14 +135,13 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
           if (search === null) throw new Error("another worker has the search");
           return search.advance(results, most, rateFrom);
         }),
-      evaluate: (_options, tasks) => {
+      evaluate: (_model, _options, tasks) => {
         const call = tasks.some(({ number }) => number < REFINING) ? "measure" : "refine";
         return work(call, () => tasks.map(({ number, directions }) => ({ number, candidates: packed(directions.map(candidateAt)) })));
       },
-      plan: async () => ({ report: {} as Report, profile: new Float32Array() }),
-      preview: () => ({}) as Profiled<Preview>,
-      ...{ tradeoff: unused, compare: unused, inspect: unused, mask: unused, archive: unused, encodeGroup: unused, plugs: unused, positions: unused, saliency: unused },
-      ...{ weightsFile: unused, readWeights: unused, calibrateLayers: unused, printers: unused, price: unused },
+      remove: () => undefined,
+      plan: async () => ({ report: { schema: 2, print_time_s: 0, resin_ml: 0, plates: [{} as Report] }, profiles: [] }),
+      preview: () => ({ report: {} as Preview, profile: new Float32Array() }),
     };
     return { remote, terminate: () => live.delete(number), onBroken: () => undefined };
   };
@@ -192,7 +191,7 @@ test("the result depends neither on the number of workers nor on their speed", a
       answers.push(JSON.stringify(found));
       // The first worker is the one for plans.
       expect(workersOf(log, "measure").size).toBe(workers);
-      expect(log.filter((line) => line.startsWith("1: "))).toEqual(["1: open a"]);
+      expect(log.filter((line) => line.startsWith("1: "))).toEqual(["1: add a"]);
     }
   }
   expect(new Set(answers).size).toBe(1);
@@ -233,8 +232,8 @@ test("candidates of an earlier search are rated and refined without being measur
   expect(workersOf(log, "refine").size).toBeGreaterThan(0);
 });
 
-test.each(["measure", "refine", "advance", "open a"])("an abort during %s terminates the busy workers, not the main one", async (hangs) => {
-  const { slicer, live, log } = faked({ workers: 2, hangs: hangs === "open a" ? "nothing" : hangs });
+test.each(["measure", "refine", "advance", "add a"])("an abort during %s terminates the busy workers, not the main one", async (hangs) => {
+  const { slicer, live, log } = faked({ workers: 2, hangs: hangs === "add a" ? "nothing" : hangs });
   await slicer.load(new Blob(["a"]));
   const before = [...live];
   const abort = new AbortController();
@@ -295,14 +294,14 @@ test("each worker uses the model and the weights at the time of the call, whatev
   void slicer.setWeights(null);
   await slicer.load(new Blob(["b"]));
   await running;
-  expect(log.filter((line) => /^[23]: (open|setWeights)/.test(line)).toSorted()).toEqual([
-    "2: open a",
+  expect(log.filter((line) => /^[23]: (add|setWeights)/.test(line)).toSorted()).toEqual([
+    "2: add a",
     "2: setWeights 0.5",
-    "3: open a",
+    "3: add a",
     "3: setWeights 0.5",
   ]);
   await slicer.orient({}, { directions: COUNT });
-  expect(log.filter((line) => /^[23]: (open|setWeights)/.test(line)).toSorted().filter((line) => line.includes("b"))).toEqual(["2: open b", "3: open b"]);
+  expect(log.filter((line) => /^[23]: (add|setWeights)/.test(line)).toSorted().filter((line) => line.includes("b"))).toEqual(["2: add b", "3: add b"]);
 });
 
 test("idle workers are terminated after a while, and on request", async () => {
@@ -317,7 +316,7 @@ test("idle workers are terminated after a while, and on request", async () => {
 });
 
 test("a large model gets fewer workers, but at least one", () => {
-  const of = (search_bytes: number, most = 64): number => workersFor({ file: { blob: new Blob([]), reading: {} }, search_bytes }, most);
+  const of = (search_bytes: number, most = 64): number => workersFor({ file: new Blob([]), search_bytes }, most);
   expect(of(1000)).toBe(8);
   expect(of(1000, 2)).toBe(2);
   expect(of(250e6)).toBe(2);

@@ -1,6 +1,6 @@
 /** A pool of workers for work that splits into many tasks: each holds the model, and a free one takes the next tasks. */
 import { disposed, untilAborted, type Remote, type Watch } from "./calls.js";
-import { present, type About, type Client, type Subject } from "./client.js";
+import type { About, Client, Loaded } from "./client.js";
 
 /** More workers are no faster, and each holds the model. */
 const MOST_WORKERS = 8;
@@ -14,8 +14,8 @@ const IDLE_MS = 10_000;
 type Signal = Pick<Watch, "signal">;
 
 /** The number of workers for a model: up to `most`, fewer for a large model, at least one. */
-export function workersFor({ file, search_bytes }: Pick<Subject, "file" | "search_bytes">, most: number): number {
-  const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.blob.size));
+export function workersFor({ file, search_bytes }: Pick<Loaded, "file" | "search_bytes">, most: number): number {
+  const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 
@@ -65,7 +65,7 @@ export class Pool {
       if (this.#isDisposed) throw disposed();
       clearTimeout(this.#timer);
       try {
-        return await task(this.#team(present(await about), { signal }));
+        return await task(this.#team(await about, { signal }));
       } finally {
         if (!this.#isDisposed) this.#timer = setTimeout(() => this.rest(), IDLE_MS);
       }
@@ -88,12 +88,12 @@ export class Pool {
     for (const client of this.#clients) client.dispose();
   }
 
-  #team(subject: Subject, watch: Signal): Team {
+  #team(subject: Loaded, watch: Signal): Team {
     const workers = workersFor(subject, this.#most);
     const about = Promise.resolve(subject);
     const client = (place: number): Client => (this.#clients[place] ??= this.#start());
     const ask = <T>(place: number, question: (remote: Remote) => T | Promise<T>): Promise<T> =>
-      client(place).ask(about, watch, question);
+      client(place).ask(about, watch, (remote) => question(remote));
     return {
       ask: (question) => ask(0, question),
       share: (sharing) => share(workers, ask, sharing),

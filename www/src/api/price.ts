@@ -9,9 +9,6 @@ export interface Ordered {
   finish?: string;
 }
 
-/** How the plates of a plan are ordered: their copies are those of the plan. */
-export type OrderedPlates = Omit<Ordered, "copies">;
-
 /** What a report needs: copies on a plate have their shares of its time. */
 export function priceItems({ plate, resin_ml, print_time_s }: Report, copies = 1): PriceItem[] {
   if (!plate) return [{ copies, resin_ml, print_time_s }];

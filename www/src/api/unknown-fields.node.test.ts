@@ -1,11 +1,9 @@
-import { readFile } from "node:fs/promises";
 import { beforeAll, expect, test } from "vitest";
-import { initSync, Plate, price, Slicer } from "../../pkg/cusp_slicer.js";
+import { Job, price } from "../../pkg/cusp_slicer.js";
 import { binaryStl, exampleTriangles } from "../page/example.js";
+import { jobOf, planOf, startCore } from "./core.node-fixture.js";
 
-beforeAll(async () => {
-  initSync({ module: await readFile(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
-});
+beforeAll(startCore);
 
 const silent = (): undefined => undefined;
 
@@ -18,9 +16,9 @@ test.each([
   [{ tolerance: NaN }, "tolerance: a number is not finite"],
   [{ rays: 64.5 }, "invalid type: floating point `64.5`"],
 ])("options that are misspelt are refused: %j", async (options, said) => {
-  const slicer = new Slicer(binaryStl(exampleTriangles()), {});
-  await expect(slicer.plan(options as object, silent)).rejects.toMatchObject({ code: "bad-options", message: expect.stringContaining(said) });
-  slicer.free();
+  const job = jobOf(binaryStl(exampleTriangles()));
+  await expect(planOf(job, options as object)).rejects.toMatchObject({ code: "bad-options", message: expect.stringContaining(said) });
+  job.free();
 });
 
 test("so are prices, limits, models of a plate and choices of reading, and what is undefined counts as absent", async () => {
@@ -34,11 +32,9 @@ test("so are prices, limits, models of a plate and choices of reading, and what 
     }
   };
   expect(failure(() => price({ currency: "EUR", setupp: 1 } as never, new Float64Array([1, 1, 1]), null))).toEqual(refused("did you mean `setup`?"));
-  expect(failure(() => new Slicer(file, { plate: 1 } as never))).toEqual(refused("did you mean `plate_number`?"));
-  const slicer = new Slicer(file, {});
-  await slicer.plan({ rays: 64, backend: "cpu", tolerance: undefined, resin: { exposure_s: 2.5, layer_mm: undefined } } as object, silent);
-  expect(failure(() => slicer.inspect({ wall: 1 } as never, silent))).toEqual(refused("did you mean `wall_mm`?"));
-  const plate = new Plate();
-  plate.add(slicer);
-  expect(failure(() => plate.arrange({ options: { printer: "mars-4-ultra" }, models: [{ copys: 2 }] } as never))).toEqual(refused("did you mean `copies`?"));
+  expect(failure(() => new Job().add(file, { plate: 1 } as never))).toEqual(refused("did you mean `plate_number`?"));
+  const job = jobOf(file);
+  await planOf(job, { rays: 64, backend: "cpu", tolerance: undefined, resin: { exposure_s: 2.5, layer_mm: undefined } } as object);
+  expect(failure(() => job.inspect(0, { wall: 1 } as never, silent))).toEqual(refused("did you mean `wall_mm`?"));
+  expect(failure(() => job.arrange({ options: { printer: "mars-4-ultra" }, models: [{ copys: 2 }] } as never))).toEqual(refused("did you mean `copies`?"));
 });

@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, Limits, Placement, PlateOptions, PlatePrintability, PlatesReport, Price, PriceItem, Prices, Printability, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, SearchOptions, Task };
 export type {
   Arranging,
   Backend,
@@ -71,10 +71,14 @@ export interface Profiled<R> {
    * section in mm².
    */
   profile: Float32Array;
-  /** Vertex positions of the supports, nine numbers a facet, mm from the plate; absent without supports. */
-  supports?: Float32Array;
-  /** Vertex positions of the walls of the void, likewise; absent if the model is solid. */
-  voids?: Float32Array;
+}
+
+/** What is added to models, in their order: for each, vertex positions for a copy that stands in the middle and is not turned, nine numbers a facet, mm from the plate. */
+export interface Shells {
+  /** Supports; absent if no model has any. */
+  supports?: Float32Array[];
+  /** The walls of voids; absent if all models are solid. */
+  voids?: Float32Array[];
 }
 
 /** A print file of the core's own, and its report. */
@@ -84,11 +88,9 @@ export interface Written {
 }
 
 /** The reports of all plates, and the profile of each plate. */
-export interface ProfiledPlates {
-  report: PlatesReport;
+export interface ProfiledPlates extends Shells {
+  report: JobReport;
   profiles: Float32Array[];
-  /** As in {@link Profiled}, of each model, for a copy that stands in the middle and is not turned; absent without supports. */
-  supports?: Float32Array[];
 }
 
 /** The result of a task: a candidate for each of its directions, in their order, as {@link PackedCandidates}. */
@@ -122,7 +124,6 @@ export interface SearchStep {
   result: { candidates: PackedCandidates; best: PackedCandidates } | null;
 }
 
-/** The worker's interface through comlink. Everything it throws is an `Error` or a plain `CuspError`. */
 /** Has another worker encode a group of layers; null if it failed. */
 export type Help = (format: Format, canvas: Uint32Array, runs: Uint32Array) => Promise<Uint8Array | null>;
 
@@ -132,76 +133,63 @@ export interface Opened {
   positions?: Float32Array;
 }
 
-export interface SlicerWorker extends PlateWorker {
+/** What a worker does for the job that it holds. Models are counted from 0 in their order, and so are plates. */
+export interface SlicerWorker {
   /** Starts the core from its compiled module, or from its address. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | string): Promise<WebAssembly.Module>;
   /** The core's memory in bytes, which never shrinks. */
   memory(): number;
   /** Plans a small ring and forgets it: what a browser has not compiled yet, it compiles now. */
   rehearse(): Promise<void>;
-  /** Reads a model; `wantsPositions`: with the corners of its facets. If this fails, the previous one stays open. */
-  open(file: Blob, reading: ReadOptions, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
-  plan(options: Options, progress: OnProgress): Promise<Profiled<Report>>;
-  tradeoff(options: Options, points: number, progress: OnProgress): Promise<Tradeoff>;
-  compare(options: Options, progress: OnProgress): Promise<Comparison>;
-  /** What will fail when the last plan is printed. */
-  inspect(limits: Limits, progress: OnProgress): Printability;
+  /** Reads a model and adds it after the others; `wantsPositions`: with the corners of its facets. */
+  add(file: Blob, reading: ReadOptions, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
+  remove(model: number): void;
+  plan(options: JobOptions, progress: OnProgress): Promise<ProfiledPlates>;
+  arrange(options: JobOptions): Placement[];
+  problems(options: JobOptions): ArrangeError[];
+  /** The best plans of a plate for `points` tolerances. */
+  tradeoff(plate: number, options: JobOptions, points: number, progress: OnProgress): Promise<Tradeoff>;
+  compare(plate: number, options: JobOptions, progress: OnProgress): Promise<Comparison>;
+  /** What will fail when a plate of the last plan is printed. */
+  inspect(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
   /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
-  mask(layer: number): Uint8Array;
-  /** The print file of the last plan as a Blob. With `take`, passes its chunks there instead, and returns null. As many `helpers` encode some of its layers. */
-  archive(progress: OnProgress, take: ((chunk: Uint8Array) => void) | null, helpers: number, help: Help): Blob | null | Promise<Blob | null>;
+  mask(plate: number, layer: number): Uint8Array;
+  /** The print file of a plate of the last plan as a Blob. With `take`, passes its chunks there instead, and returns null. As many `helpers` encode some of its layers. */
+  archive(plate: number, progress: OnProgress, take: ((chunk: Uint8Array) => void) | null, helpers: number, help: Help): Blob | null | Promise<Blob | null>;
   /** Encodes a group of layers for another worker. Needs no model. */
   encodeGroup(format: Format, canvas: Uint32Array, runs: Uint32Array): Uint8Array;
-  /** A binary STL of a plug for each drain hole of the last plan. */
-  plugs(): Uint8Array;
-  positions(): Float32Array;
-  preview(options: Options): Profiled<Preview>;
+  /** A binary STL of a plug for each drain hole of a model in the last plan. */
+  plugs(model: number): Uint8Array;
+  positions(model: number): Float32Array;
+  preview(model: number, options: Options): Profiled<Preview>;
   /** How much each facet stands out, 0 to 1. */
-  saliency(progress: OnProgress): Float32Array;
+  saliency(model: number, progress: OnProgress): Float32Array;
   /** Sets how much each facet matters to later plans and previews, 0 to 1; null: all equally. */
-  setWeights(weights: Float32Array | null): void;
-  weightsFile(weights: Float32Array): Uint8Array;
-  readWeights(file: Blob): Promise<Float32Array>;
+  setWeights(model: number, weights: Float32Array | null): void;
+  weightsFile(model: number, weights: Float32Array): Uint8Array;
+  readWeights(model: number, file: Blob): Promise<Float32Array>;
   /**
    * Starts a search, which this worker holds until the next one; `measured` are the candidates of an earlier search to reuse.
    * Returns its directions: unit vectors in the file's frame, three numbers each.
    */
-  startSearch(options: Options, search: SearchOptions, measured: PackedCandidates | null): Float64Array;
+  startSearch(model: number, options: Options, search: SearchOptions, measured: PackedCandidates | null): Float64Array;
   /** Delivers results and takes up to `most` new tasks. Rates candidates once `rateFrom` directions are measured. */
   advanceSearch(results: TaskResult[], most: number, rateFrom: number): SearchStep;
   /** Runs tasks of a search that this or another worker holds. */
-  evaluate(options: Options, tasks: Task[]): TaskResult[];
-  /** The print file of the test towers; neither the open model nor its plan changes. */
+  evaluate(model: number, options: Options, tasks: Task[]): TaskResult[];
+  /** The print file of the test towers; neither the job nor its plan changes. */
   calibrateLayers(options: Options, progress: OnProgress): Promise<Written>;
   printers(): KnownPrinter[];
   /** What an order costs; it needs no model. */
   price(prices: Prices, items: PriceItem[], finish: string | null): Price;
 }
 
-/** The worker's interface, where every method may return a promise. */
+/** The worker's interface through comlink, where every method may return a promise. Everything it throws is an `Error` or a plain `CuspError`. */
 export type Remote = {
   [Name in keyof SlicerWorker]: (
     ...given: Parameters<SlicerWorker[Name]>
   ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
 };
-
-/** What a worker does for a plate. Models are counted from 0 in their order, and so are plates. */
-export interface PlateWorker {
-  /** Reads a model and adds it after the others. */
-  addToPlate(file: Blob, reading: ReadOptions, progress: OnProgress): Promise<MeshInfo>;
-  removeFromPlate(model: number): void;
-  platePositions(model: number): Float32Array;
-  setPlateWeights(model: number, weights: Float32Array | null): void;
-  arrangePlate(options: PlateOptions): Placement[];
-  plateProblems(options: PlateOptions): ArrangeError[];
-  planPlate(options: PlateOptions, progress: OnProgress): Promise<ProfiledPlates>;
-  plateMask(plate: number, layer: number): Uint8Array;
-  /** The best plans of a plate of the last plan, for `points` tolerances. */
-  tradeoffPlate(plate: number, points: number): Tradeoff;
-  /** The printability of a plate of the last plan. */
-  inspectPlate(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
-  archivePlate(plate: number, progress: OnProgress): Blob;
-}
 
 /** The core's own defaults, which a form shows before the worker has started. A test compares them with the core. */
 export const DEFAULTS = {

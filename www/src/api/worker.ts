@@ -1,6 +1,6 @@
-/** The worker: the only file that imports the WebAssembly package. One model is open at a time, and there is one plate. */
+/** The worker: the only file that imports the WebAssembly package. It holds one job. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, encode_group, head_bytes, identify, OrientationSearch, Plate, price, printers, Slicer, type InitOutput } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_layers, encode_group, head_bytes, identify, Job, OrientationSearch, price, printers, type InitOutput } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
@@ -9,7 +9,7 @@ import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./told.js";
 import { endUpperHalves } from "./vectors.js";
-import type { Help, KnownPrinter, OnProgress, PackedCandidates, PlateWorker, ReadOptions, Remote, SearchStep } from "./wire.js";
+import type { Help, KnownPrinter, OnProgress, PackedCandidates, Remote, SearchStep } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -18,17 +18,13 @@ const BLOB_PART_BYTES = 8 << 20;
 const REHEARSED = 20;
 const REHEARSED_RAYS = 128;
 
-let slicer: Slicer | null = null;
-let plate: Plate | null = null;
+let job: Job | null = null;
 let search: OrientationSearch | null = null;
 /** The exports of the core. */
 let core: InitOutput | null = null;
 
-/** The open model. The client opens one before any call that needs it. */
-function current(): Slicer {
-  if (slicer === null) throw new Error("no model is open");
-  return slicer;
-}
+/** The job, without models at first. */
+const current = (): Job => (job ??= new Job());
 
 async function compile(address: string): Promise<WebAssembly.Module> {
   const response = await fetch(address);
@@ -68,18 +64,9 @@ class BlobSink {
   }
 }
 
-/** The plate, empty at first. */
-const onPlate = (): Plate => (plate ??= new Plate());
-
-/** Reads a model; a file that is none is rejected before all of it is read. */
-async function read(file: Blob, reading: ReadOptions): Promise<Slicer> {
-  identify(await bytesOf(file.slice(0, head_bytes())), file.size);
-  return new Slicer(await bytesOf(file), reading);
-}
-
 /** Hands out the layers of the print file once helpers have encoded them, and forgets each; null if it is written sooner without. */
-async function encodedBy(helpers: number, help: Help, progress: OnProgress): Promise<((group: number) => Uint8Array) | null> {
-  const groups = current().layer_groups();
+async function encodedBy(plate: number, helpers: number, help: Help, progress: OnProgress): Promise<((group: number) => Uint8Array) | null> {
+  const groups = current().layer_groups(plate);
   if (groups === undefined) return null;
   try {
     if (!isLong(groups)) return null;
@@ -94,46 +81,7 @@ async function encodedBy(helpers: number, help: Help, progress: OnProgress): Pro
   }
 }
 
-const plateApi: Pick<Remote, keyof PlateWorker> = {
-  async addToPlate(file, reading, progress) {
-    progress("load", 0, 0);
-    const model = await read(file, reading);
-    const info = model.info();
-    onPlate().add(model);
-    return info;
-  },
-  removeFromPlate: (model) => onPlate().remove(model),
-  platePositions(model) {
-    const positions = onPlate().positions(model);
-    return Comlink.transfer(positions, [positions.buffer]);
-  },
-  setPlateWeights: (model, weights) => onPlate().set_weights(model, weights),
-  arrangePlate: (options) => onPlate().arrange(options),
-  plateProblems: (options) => onPlate().problems(options),
-  async planPlate(options, progress) {
-    const plate = onPlate();
-    const report = await plate.plan(options, progress);
-    const profiles = report.plates.map(({ metric, source }, number) => plate.profile(number, metric, source));
-    const isSupported = report.plates.some(({ supported }) => supported !== undefined);
-    const supports = isSupported ? (options.models ?? []).map((_, model) => plate.supports(model)) : [];
-    const buffers = [...profiles, ...supports].map(({ buffer }) => buffer);
-    return Comlink.transfer({ report, profiles, ...(isSupported && { supports }) }, buffers);
-  },
-  plateMask(number, layer) {
-    const bits = onPlate().mask(number, layer);
-    return Comlink.transfer(bits, [bits.buffer]);
-  },
-  tradeoffPlate: (number, points) => onPlate().tradeoff(number, points),
-  inspectPlate: (number, limits, progress) => onPlate().inspect(number, limits, progress),
-  archivePlate(number, progress) {
-    const sink = new BlobSink();
-    onPlate().archive(number, sink.take, progress);
-    return sink.finish();
-  },
-};
-
 const api: Remote = {
-  ...plateApi,
   async boot(module) {
     endUpperHalves();
     const compiled = typeof module === "string" ? await compile(module) : module;
@@ -142,80 +90,90 @@ const api: Remote = {
   },
   memory: () => core?.memory.buffer.byteLength ?? 0,
   async rehearse() {
-    const model = new Slicer(stlOf(ring(REHEARSED)), {});
-    await model.plan({ rays: REHEARSED_RAYS, backend: "cpu" }, () => undefined);
-    model.mask(0);
-    model.free();
+    const ringed = new Job();
+    ringed.add(stlOf(ring(REHEARSED)), {});
+    await ringed.plan({ options: { rays: REHEARSED_RAYS, backend: "cpu" } }, () => undefined);
+    ringed.mask(0, 0);
+    ringed.free();
   },
-  async open(file, reading, progress, wantsPositions) {
+  async add(file, reading, progress, wantsPositions) {
     progress("load", 0, 0);
-    const opened = await read(file, reading);
-    slicer?.free();
-    slicer = opened;
-    const info = opened.info();
+    // A file that is no model is rejected before all of it is read.
+    identify(await bytesOf(file.slice(0, head_bytes())), file.size);
+    current().add(await bytesOf(file), reading);
+    const place = current().models() - 1;
+    const info = current().info(place);
     if (wantsPositions !== true) return { info };
-    const positions = opened.positions();
+    const positions = current().positions(place);
     return Comlink.transfer({ info, positions }, [positions.buffer]);
   },
+  remove: (model) => current().remove(model),
   async plan(options, progress) {
-    const report = await current().plan(options, progress);
-    const profile = current().profile(report.metric, report.source);
-    const supports = report.supported === undefined ? {} : { supports: current().supports() };
-    const voids = report.hollowed === undefined ? {} : { voids: current().voids() };
-    const plan = { report, profile, ...supports, ...voids };
-    return Comlink.transfer(plan, [profile, supports.supports, voids.voids].flatMap((it) => it?.buffer ?? []));
+    const job = current();
+    const report = await job.plan(options, progress);
+    const { plates } = report;
+    const profiles = plates.map(({ metric, source }, plate) => job.profile(plate, metric, source));
+    const places = Array.from({ length: job.models() }, (_, model) => model);
+    const isSupported = plates.some(({ supported }) => supported !== undefined);
+    const isHollow = plates.some(({ hollowed }) => hollowed !== undefined);
+    const supports = isSupported ? places.map((model) => job.supports(model)) : null;
+    const voids = isHollow ? places.map((model) => job.voids(model)) : null;
+    const buffers = [profiles, supports, voids].flatMap((arrays) => arrays?.map(({ buffer }) => buffer) ?? []);
+    return Comlink.transfer({ report, profiles, ...(supports && { supports }), ...(voids && { voids }) }, buffers);
   },
-  tradeoff: (options, points, progress) => current().tradeoff(options, points, progress),
-  compare: (options, progress) => current().compare(options, progress),
-  inspect: (limits, progress) => current().inspect(limits, progress),
-  mask(layer) {
-    const bits = current().mask(layer);
+  arrange: (options) => current().arrange(options),
+  problems: (options) => current().problems(options),
+  tradeoff: (plate, options, points, progress) => current().tradeoff(plate, options, points, progress),
+  compare: (plate, options, progress) => current().compare(plate, options, progress),
+  inspect: (plate, limits, progress) => current().inspect(plate, limits, progress),
+  mask(plate, layer) {
+    const bits = current().mask(plate, layer);
     return Comlink.transfer(bits, [bits.buffer]);
   },
-  async archive(progress, take, helpers, help) {
-    const encoded = helpers === 0 ? null : await encodedBy(helpers, help, progress);
+  async archive(plate, progress, take, helpers, help) {
+    const encoded = helpers === 0 ? null : await encodedBy(plate, helpers, help, progress);
     if (take !== null) {
-      current().archive(encoded, (chunk) => take(own(chunk)), progress);
+      current().archive(plate, encoded, (chunk) => take(own(chunk)), progress);
       return null;
     }
     const sink = new BlobSink();
-    current().archive(encoded, sink.take, progress);
+    current().archive(plate, encoded, sink.take, progress);
     return sink.finish();
   },
   encodeGroup(format, canvas, runs) {
     const bytes = encode_group(format, canvas, runs);
     return Comlink.transfer(bytes, [bytes.buffer]);
   },
-  plugs() {
-    const file = stlOf(current().plugs());
+  plugs(model) {
+    const file = stlOf(current().plugs(model));
     return Comlink.transfer(file, [file.buffer]);
   },
-  positions() {
-    const positions = current().positions();
+  positions(model) {
+    const positions = current().positions(model);
     return Comlink.transfer(positions, [positions.buffer]);
   },
-  preview(options) {
-    const report = current().preview(options);
+  preview(model, options) {
+    const report = current().preview(model, options);
     const profile = current().preview_profile();
     return Comlink.transfer({ report, profile }, [profile.buffer]);
   },
-  saliency(progress) {
-    const saliency = current().saliency(progress);
+  saliency(model, progress) {
+    const saliency = current().saliency(model, progress);
     return Comlink.transfer(saliency, [saliency.buffer]);
   },
-  setWeights(weights) {
-    current().set_weights(weights);
+  setWeights(model, weights) {
+    current().set_weights(model, weights);
   },
-  weightsFile(weights) {
-    const bytes = own(current().weights_file(weights));
+  weightsFile(model, weights) {
+    const bytes = own(current().weights_file(model, weights));
     return Comlink.transfer(bytes, [bytes.buffer]);
   },
-  async readWeights(file) {
-    const weights = current().read_weights(await bytesOf(file));
+  async readWeights(model, file) {
+    const weights = current().read_weights(model, await bytesOf(file));
     return Comlink.transfer(weights, [weights.buffer]);
   },
-  startSearch(options, wanted, measured) {
-    const started = measured === null ? current().search(options, wanted) : OrientationSearch.of_measured(wanted, measured);
+  startSearch(model, options, wanted, measured) {
+    const started = measured === null ? current().search(model, options, wanted) : OrientationSearch.of_measured(wanted, measured);
     search?.free();
     search = started;
     const directions = search.directions();
@@ -232,8 +190,8 @@ const api: Remote = {
     const step: SearchStep = { tasks, measured, progress: search.progress(), rated, result };
     return Comlink.transfer(step, [rated, result?.candidates, best].flatMap((numbers) => numbers?.buffer ?? []));
   },
-  evaluate(options, tasks) {
-    const measure = (directions: [number, number, number][]): PackedCandidates => current().evaluate(options, Float64Array.from(directions.flat()));
+  evaluate(model, options, tasks) {
+    const measure = (directions: [number, number, number][]): PackedCandidates => current().evaluate(model, options, Float64Array.from(directions.flat()));
     const results = tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
     return Comlink.transfer(results, results.map(({ candidates }) => candidates.buffer));
   },

@@ -53,10 +53,10 @@ export function undoButtons({ session, language }: Facts): TemplateResult {
 }
 
 /** The 3-D view, with or without a plan. */
-export function modelPanel({ session, language, slicer, saveWeights }: Facts): TemplateResult {
+export function modelPanel({ session, language, saveWeights }: Facts): TemplateResult {
   const { layer, shown, turning, settings } = session;
   return html`<cusp-model
-    .slicer=${slicer}
+    .slicer=${session.selected}
     .model=${session.model}
     .corners=${session.positions}
     .isPlanning=${session.busy?.task === "plan" && session.result === null}
@@ -103,11 +103,11 @@ export function chartPanel({ session, language }: Facts, placed = besideView): T
 /** Few people search for an orientation, and the sphere of directions is a good part of the code. */
 const orientationCode = new FetchedPanel("orientation", () => import("./panels/orientation-panel.js"), ({ defineOrientation }) => defineOrientation());
 
-export function orientationPanel({ element, session, language, slicer }: Facts): TemplateResult | typeof nothing {
+export function orientationPanel({ element, session, language }: Facts): TemplateResult | typeof nothing {
   if (!orientationCode.isThere) return orientationCode.instead(element, language);
   const { orientation, settings, turning } = session;
   return html`<cusp-orientation
-    .slicer=${slicer}
+    .slicer=${session.selected}
     .searched=${searchedOf(session)}
     .metric=${settings.metric}
     .rotation=${turning ?? rotationOf(settings.rotation)}

@@ -1,6 +1,6 @@
 /** The events that the element fires for its page. They bubble, and cross the shadow roots around the element. */
 import type { SlicerError } from "../api/error.js";
-import type { Check, Model, Plan, PlateCheck, PrintFile } from "../api/index.js";
+import type { Check, Model, Plan, PrintFile } from "../api/index.js";
 import type { Candidate, Price, Stage } from "../api/wire.js";
 
 export interface ProgressDetail {
@@ -34,7 +34,7 @@ export interface CuspSlicerEvents {
   /** What the plan costs by the property `prices` is known. */
   "cusp-price": CustomEvent<Price>;
   /** A plan was checked for what will fail when it is printed: while a panel shows that, or with the property `limits`. */
-  "cusp-check": CustomEvent<Check | PlateCheck>;
+  "cusp-check": CustomEvent<Check>;
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** The download button was pressed. Cancelable: `preventDefault()` keeps the browser from saving the print file. */
   "cusp-export": CustomEvent<PrintFile>;

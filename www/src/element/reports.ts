@@ -1,6 +1,6 @@
 /** Passes on what a session reports: to the page as events, and to calls that wait for a plan. */
 import type { SlicerError } from "../api/error.js";
-import type { Check, Model, Plan, PlateCheck } from "../api/index.js";
+import type { Check, Model, Plan } from "../api/index.js";
 import type { Candidate, Price } from "../api/wire.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { secondsLeft, type Busy } from "./parts/progress.js";
@@ -68,7 +68,7 @@ export class Reports implements Host {
     this.tell("cusp-error", error);
   }
 
-  checked(check: Check | PlateCheck): void {
+  checked(check: Check): void {
     this.tell("cusp-check", check);
   }
 

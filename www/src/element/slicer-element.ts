@@ -4,7 +4,7 @@
  */
 import { nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
-import { SCHEMA, type Check, type Model, type Plan, type PlateCheck, type PlatesPlan, type PrintFile } from "../api/index.js";
+import type { Check, Model, Plan, PrintFile } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { ModelOptions } from "../api/wire.js";
 import { fetchLanguage, languageOf } from "../texts/index.js";
@@ -108,16 +108,12 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   /** The last successful plan of all plates, with their time and resin in all; null if there is none. */
-  get plates(): PlatesPlan | null {
-    const { result } = this;
-    if (result === null) return null;
-    const { report, profile } = result;
-    const { print_time_s, resin_ml } = report;
-    return this.session.plate.planned ?? { schema: SCHEMA, plates: [{ report, profile }], print_time_s, resin_ml };
+  get plates(): Plan | null {
+    return this.session.plate.planned ?? this.result;
   }
 
   /** What will fail when the last plan is printed, and the verdict; null until it is checked: see `limits`. */
-  get check(): Check | PlateCheck | null {
+  get check(): Check | null {
     return this.session.checks.check;
   }
 
@@ -185,7 +181,7 @@ export abstract class SlicerElement extends SettableElement {
     const { result } = this;
     if (result === null) throw new SlicerError("no-plan", "plan the layers first");
     const { plate } = this.session;
-    return thumbnailOf(this.slicer, result, plate.heightOf(plate.selected) ?? result.report.height_mm, size_px);
+    return thumbnailOf(this.session.selected, result, plate.heightOf(plate.selected) ?? result.report.height_mm, size_px);
   }
 
   /** Stops the running task and an orientation search within 0.1 s; the last plan stays. */

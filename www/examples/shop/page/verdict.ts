@@ -1,5 +1,5 @@
 /** What the shop says of a model before it is ordered. */
-import type { Check, Code } from "cusp-slicer";
+import type { Check, Code, ModelPrintability } from "cusp-slicer";
 import { number } from "./format.js";
 
 type Severity = "review" | "reject";
@@ -33,7 +33,7 @@ const WORDS: Readonly<Record<Check["verdict"], string>> = {
 const FAILED = "This could not be checked here. Please change a choice, or load this page anew.";
 
 /** One sentence for each kind of finding, those that are refused first. */
-export function reasons({ counts, findings }: Pick<Check, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
+export function reasons({ counts, findings }: Pick<ModelPrintability, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
   const severityOf = (code: Code): Severity => (findings.some((it) => it.code === code && it.severity === "reject") ? "reject" : "review");
   const said = counts.map(({ code, found }) => ({
     code,
@@ -52,7 +52,7 @@ export function fillVerdict(section: HTMLElement, check: Check | null, hasFailed
   // Written only when it changes, so that it is announced once.
   if (words.textContent !== text) words.textContent = text;
   section.dataset["verdict"] = check?.verdict ?? "";
-  const items = check === null ? [] : reasons(check).map(({ code, severity, text }) => item(code, severity, text));
+  const items = check === null ? [] : check.models.flatMap(reasons).map(({ code, severity, text }) => item(code, severity, text));
   list.replaceChildren(...items);
 }
 

@@ -1,6 +1,7 @@
 /** The 3-D view of the model and its tools. The view itself, and three.js with it, is fetched when first shown. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
-import type { Model, Slicer } from "../../api/index.js";
+import type { Model } from "../../api/index.js";
+import type { ModelCalls } from "../state/selected.js";
 import { isFilament, type Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import type { Mark } from "../../view/scene/marker.js";
@@ -57,7 +58,7 @@ export interface Scaled {
 }
 
 const PROPERTIES = {
-  slicer: given<Slicer | null>(null),
+  slicer: given<ModelCalls | null>(null),
   /** A different model has its positions fetched. */
   model: given<Model | null>(null),
   /** The positions of the model, if they came with it. */

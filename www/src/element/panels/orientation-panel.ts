@@ -1,7 +1,8 @@
 /** The orientation panel: the aims of the search, the sphere of scores, the orientation now, and the best ones to choose from. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import type { Found, Slicer } from "../../api/index.js";
+import type { Found } from "../../api/index.js";
+import type { ModelCalls } from "../state/selected.js";
 import type { Candidate, Metric } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { gradient, type PaletteName } from "../../view/legend/palette.js";
@@ -33,7 +34,7 @@ const PICTURE_PX = 256;
 export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "now" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
 const PROPERTIES = {
-  slicer: given<Slicer | null>(null),
+  slicer: given<ModelCalls | null>(null),
   searched: given<Searched | null>(null),
   /** The metric of errors if the search's options name none. */
   metric: given<Metric>("cusp"),

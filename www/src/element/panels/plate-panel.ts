@@ -1,7 +1,7 @@
 /** `<cusp-plate>`: the models on the plate, their copies, how they are arranged, and the plates. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { until } from "lit/directives/until.js";
-import type { PlatesPlan } from "../../api/index.js";
+import type { Plan } from "../../api/index.js";
 import type { ArrangeError, Arranging, Placement } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { fetchProblemTexts } from "../../texts/problems.js";
@@ -36,7 +36,7 @@ const PROPERTIES = {
   arranging: given<Required<Arranging>>({ spacing_mm: 0, turn_deg: 0 }),
   number: given(0),
   plates: given(1),
-  planned: given<PlatesPlan | null>(null),
+  planned: given<Plan | null>(null),
   /** Where copies stand by hand. */
   placed: given<readonly Placement[]>([]),
   problems: given<readonly ArrangeError[]>([]),

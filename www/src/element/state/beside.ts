@@ -3,7 +3,7 @@
  * trade-off curve.
  */
 import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
-import type { Mask, OrderedPlates, Slicer } from "../../api/index.js";
+import type { Mask, Ordered, Slicer } from "../../api/index.js";
 import type { Price, Prices } from "../../api/wire.js";
 import type { Checks } from "./checks.js";
 import type { Curve } from "./curve.js";
@@ -17,7 +17,7 @@ export interface Looked {
 }
 
 /** What a shop asks, and the finish that is ordered. */
-export interface Asked extends OrderedPlates {
+export interface Asked extends Omit<Ordered, "copies"> {
   readonly prices: Prices;
 }
 

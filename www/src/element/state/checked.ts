@@ -1,5 +1,5 @@
 /** What was found on each model of a plan. */
-import type { Check, PlateCheck } from "../../api/index.js";
+import type { Check } from "../../api/index.js";
 import type { Finding, Printability, Report } from "../../api/wire.js";
 
 /** What was found on a model, or on those of its copies that stand alike. */
@@ -14,10 +14,10 @@ export interface Checked {
 type Place = readonly [number, number, number];
 
 /** The models of a check, with their findings at their places on the plate. */
-export function checkedOf(check: Check | PlateCheck, { plate }: Report): readonly Checked[] {
-  if (!("models" in check)) return [{ model: null, copies: 1, found: check }];
+export function checkedOf(check: Check, { plate }: Report): readonly Checked[] {
+  if (plate === undefined) return check.models.map((found) => ({ model: null, copies: 1, found }));
   return check.models.map(({ model, turn_deg, findings, counts }) => {
-    const placements = (plate?.placements ?? []).filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
+    const placements = plate.placements.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
     const moved = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
     const placed = (finding: Finding): Finding => {

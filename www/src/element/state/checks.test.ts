@@ -1,6 +1,6 @@
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type Check, type PlateCheck } from "../../api/index.js";
+import { SCHEMA, type Check } from "../../api/index.js";
 import type { Finding, Report } from "../../api/wire.js";
 import { planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer } from "./session-fixture.js";
@@ -18,7 +18,8 @@ const peel = { area_mm2: [], largest_layer: 0, jump_layer: 0, jump_mm2: 0, conta
 function checkOf(...codes: Finding["code"][]): Check {
   const findings = codes.map((code) => finding(code));
   const counts = codes.map((code) => ({ code, found: 1 }));
-  return { schema: SCHEMA, verdict: codes.length > 0 ? "review" : "ok", findings, counts, bodies: 1, peel };
+  const verdict = codes.length > 0 ? "review" : "ok";
+  return { schema: SCHEMA, verdict, models: [{ model: 0, turn_deg: 0, verdict, findings, counts, bodies: 1, peel }] };
 }
 
 const asked = (): number => slicer.calls.filter(({ what }) => what === "check").length;
@@ -114,17 +115,17 @@ test("on a plate each model is checked, and its findings are where its first cop
   ];
   slicer.last.resolve({ ...plan, report: { ...plan.report, plate: { plate: 3, placements } } as unknown as Report });
   await settle();
-  const { findings, counts } = checkOf("cup");
+  const { findings = [], counts = [] } = checkOf("cup").models[0] ?? {};
   const found = { findings: [], counts: [], verdict: "ok", bodies: 1, peel } as const;
-  const check: PlateCheck = {
+  const check: Check = {
     schema: SCHEMA,
     verdict: "review",
     models: [{ ...found, findings: [], counts: [], model: 0, turn_deg: 0 }, { ...found, verdict: "review", findings, counts, model: 1, turn_deg: 45 }],
   };
-  const plates: unknown[] = [];
-  Object.assign(slicer.plate, { check: async (...given: unknown[]) => (plates.push(given), check) });
+  const asked: unknown[] = [];
+  Object.assign(slicer, { check: async (...given: unknown[]) => (asked.push(given), check) });
   await open();
-  expect([asked(), plates]).toEqual([0, [[3, {}]]]);
+  expect(asked).toEqual([[{}, { plate: 3 }]]);
   expect(session.checks.check).toBe(check);
   const [sound, cup] = session.checks.models;
   expect(sound).toMatchObject({ model: 0, copies: 1, found: { findings: [] } });

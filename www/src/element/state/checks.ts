@@ -1,6 +1,6 @@
 /** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan. */
 import { isAbort, SlicerError } from "../../api/error.js";
-import type { Check, PlateCheck, Slicer } from "../../api/index.js";
+import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { WALL_MM } from "../../view/walls/scale.js";
 import { isEqual } from "./plain.js";
@@ -13,7 +13,7 @@ export interface ChecksHost {
   changed(): void;
   /** A check is wanted now. */
   wanted(): void;
-  checked(check: Check | PlateCheck): void;
+  checked(check: Check): void;
   unchecked(error: SlicerError): void;
   /** A finding was chosen: its first layer is to be shown. */
   look(layer: number): void;
@@ -27,11 +27,11 @@ interface Subject {
 
 export class Checks {
   /** The last check, which may be of an earlier plan. */
-  last: Check | PlateCheck | null = null;
+  last: Check | null = null;
   /** The models of that check. */
   models: readonly Checked[] = [];
   readonly #host: ChecksHost;
-  readonly #slicer: Pick<Slicer, "check" | "plate">;
+  readonly #slicer: Pick<Slicer, "check">;
   #limits: Limits | null = null;
   #isOpen = false;
   #chosen: Finding | null = null;
@@ -40,7 +40,7 @@ export class Checks {
   /** The plan and the limits of the last check, or of its failure. */
   #of: Subject | null = null;
 
-  constructor(host: ChecksHost, slicer: Pick<Slicer, "check" | "plate">) {
+  constructor(host: ChecksHost, slicer: Pick<Slicer, "check">) {
     this.#host = host;
     this.#slicer = slicer;
   }
@@ -89,7 +89,7 @@ export class Checks {
   }
 
   /** The check of the plan shown; null until it is made. */
-  get check(): Check | PlateCheck | null {
+  get check(): Check | null {
     return this.isCurrent && this.#error === null ? this.last : null;
   }
 
@@ -117,7 +117,7 @@ export class Checks {
     if (!(this.#isOpen || limits !== null) || this.isCurrent) return false;
     const { plate } = result.report;
     try {
-      const check = plate === undefined ? await this.#slicer.check(limits ?? {}) : await this.#slicer.plate.check(plate.plate, limits ?? {});
+      const check = await this.#slicer.check(limits ?? {}, { plate: plate?.plate });
       if (!this.#isNow(of)) return true;
       this.#keep(of, check, null);
       this.#host.checked(check);
@@ -141,7 +141,7 @@ export class Checks {
     return result === this.#host.result && limits === this.#limits;
   }
 
-  #keep(of: Subject, check: Check | PlateCheck | null, error: SlicerError | null): void {
+  #keep(of: Subject, check: Check | null, error: SlicerError | null): void {
     this.#of = of;
     this.last = check;
     this.models = check === null ? [] : checkedOf(check, of.result.report);

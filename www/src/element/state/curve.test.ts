@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { SCHEMA, type Slicer } from "../../api/index.js";
 import type { Report, TradeoffPoint } from "../../api/wire.js";
+import { planOf } from "./fake-slicer.js";
 import { Curve, merged, notchOf, placeAmong } from "./curve.js";
 import { pictureOf } from "../panels/quality.js";
 import type { Result } from "./result.js";
@@ -29,7 +30,7 @@ const uniform = (max_error: number, layers: number, print_time_s: number): Repor
 function resultOf(plan: TradeoffPoint): Result {
   const [finest, coarsest] = [uniform(0.05, 400, 4400), uniform(0.15, 134, 1920)];
   const report = { planner: "optimal", ...plan, uniform: { finest, coarsest } };
-  return { schema: SCHEMA, report: report as unknown as Report, profile: new Float32Array(), options: {}, limits: [0.05, 0.15] };
+  return { ...planOf(1), report: report as unknown as Report, options: {}, limits: [0.05, 0.15] };
 }
 
 async function curveOf(points: TradeoffPoint[], plan: TradeoffPoint): Promise<Curve> {

@@ -1,29 +1,37 @@
 /** A fake slicer for tests of the session. */
 import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type Check, type PreviewedPlan, type LoadCall, type Mask, type Model, type OrientCall, type Ordered, type OrientationReport, type Plan, type PrintFile, type TestTowers, type Watch } from "../../api/index.js";
+import { SCHEMA, type Check, type Loaded, type LoadCall, type Mask, type Model, type OrientationReport, type OrientCall, type Ordered, type Plan, type PreviewedPlan, type PrintFile, type Slicer, type TestTowers, type Watch } from "../../api/index.js";
 import type { Candidate, Preview, MeshInfo, Options, Price, Prices, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
-export const model: Model = { schema: SCHEMA, name: "a.stl", file: new Blob(), reading: {}, info };
+export const model: Model = { schema: SCHEMA, id: 1, name: "a.stl", file: new Blob(), reading: {}, info, own: {} };
 
 export function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
   const mask = { width: 8, height: 1, pitch_mm: 1 };
   const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5, planner: "optimal" } as unknown as Report;
-  return { schema: SCHEMA, report, profile: new Float32Array(1) };
+  const of = { report, profile: new Float32Array(1) };
+  return { schema: SCHEMA, ...of, plates: [of], print_time_s: 1, resin_ml: 1 };
 }
 
 /** A slicer whose calls the test resolves or rejects one by one. */
 export class FakeSlicer {
+  // What a test of several models gives, it puts in place of these.
+  add: Slicer["add"] = absentSlicer().add;
+  update: Slicer["update"] = absentSlicer().update;
+  remove: Slicer["remove"] = absentSlicer().remove;
+  problems: Slicer["problems"] = absentSlicer().problems;
+  readonly positions = async (): Promise<Float32Array> => new Float32Array(9);
+  readonly plugs = async (): Promise<Uint8Array> => new Uint8Array(84);
+  readonly saliency = async (): Promise<Float32Array> => new Float32Array(1);
   readonly calls: { what: string; options?: Options; resolve(value: unknown): void; reject(error: unknown): void }[] = [];
   readonly masks: number[] = [];
 
-  readonly plate = absentSlicer().plate;
   readonly warm = (): void => undefined;
   readonly printers = async (): Promise<[]> => [];
   readonly loads: LoadCall[] = [];
-  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Model> => {
+  readonly load = (_source: unknown, call: LoadCall = {}): Promise<Loaded> => {
     this.loads.push(call);
     return this.#call("open", call);
   };

@@ -36,7 +36,7 @@ export class Follower {
         this.#next = null;
         const stops = this.#stops;
         const { report, profile } = await this.#slicer.preview(at);
-        if (this.#stops === stops) this.#show(shownOf(report, { profile }));
+        if (this.#stops === stops) this.#show(shownOf(report, profile));
       }
     } catch {
       // Without a feasible plan there is nothing to show; the plan made when the model is released reports that.

@@ -1,10 +1,12 @@
 /** What a session is given: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
-import type { Check, Model, PlateCheck, Slicer } from "../../api/index.js";
+import type { Check, Model, Slicer } from "../../api/index.js";
 import type { Backend, Candidate, Price } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import type { Result } from "./result.js";
+import type { ModelCalls } from "./selected.js";
 import type { Settings } from "./settings.js";
+import type { SyncCalls } from "./sync.js";
 
 /** What a session reports to its host. */
 export interface Host {
@@ -15,7 +17,7 @@ export interface Host {
   planned?(result: Result): void;
   failed?(error: SlicerError): void;
   /** A plan was checked for what will fail. */
-  checked?(check: Check | PlateCheck): void;
+  checked?(check: Check): void;
   /** A plan could not be checked; it stays. */
   unchecked?(error: SlicerError): void;
   cancelled?(): void;
@@ -37,24 +39,10 @@ export interface Setup {
 
 export type SlicerCalls = Pick<
   Slicer,
-  | "load"
-  | "plate"
-  | "plan"
-  | "orient"
-  | "measure"
-  | "mask"
-  | "check"
-  | "export"
-  | "calibrateLayers"
-  | "tradeoff"
-  | "preview"
-  | "price"
-  | "printers"
-  | "warm"
-  | "setWeights"
-  | "weightsFile"
-  | "readWeights"
->;
+  "plan" | "problems" | "mask" | "check" | "export" | "calibrateLayers" | "tradeoff" | "price" | "printers" | "warm"
+> &
+  SyncCalls &
+  ModelCalls;
 
 /** A file to save. */
 export interface Download {

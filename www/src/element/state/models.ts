@@ -11,6 +11,7 @@ import { Preferences } from "./preferences.js";
 import { readPrinter } from "./printer.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
+import { aboutSelected, type ModelCalls } from "./selected.js";
 import { withoutPlaced, type Settings } from "./settings.js";
 
 /** What the core finds wrong with a printer's description. */
@@ -31,12 +32,12 @@ export abstract class Models extends Preferences {
   place = 0;
   /** The models, of which {@link model} is the selected one. */
   readonly plate: Plate;
+  /** What can be asked of the slicer about the selected model. */
+  readonly selected: ModelCalls;
 
   protected readonly host: Host;
   protected readonly slicer: SlicerCalls;
   protected readonly runner: Runner;
-  /** The selected model, while the slicer reads it again. */
-  #selecting: Entry | null = null;
 
   constructor(host: Host, slicer: SlicerCalls, ...[settings, backend]: ConstructorParameters<typeof Preferences>) {
     super(settings, backend);
@@ -49,10 +50,11 @@ export abstract class Models extends Preferences {
         changing: (kind) => this.#changing(kind),
         replate: () => this.replate(),
         show: (plan) => this.showPlate(plan),
-        selected: (entry) => void this.#select(entry),
+        selected: (entry) => this.#select(entry),
       },
       slicer,
     );
+    this.selected = aboutSelected(slicer, () => this.plate.selectedId);
   }
 
   /** Prepares for the first model. */
@@ -134,7 +136,7 @@ export abstract class Models extends Preferences {
     }
     this.drop();
     this.dismiss();
-    const entries = await this.run("open", first.name ?? nameOf(first.source), null, (watch) => this.plate.add(added, watch));
+    const entries = await this.run("open", first.name ?? nameOf(first.source), null, (watch) => this.plate.add(added, { ...watch, ...this.#shown() }));
     if (entries === null) {
       // What went wrong stays on show, and so does the plan before.
       await this.resume();
@@ -161,9 +163,7 @@ export abstract class Models extends Preferences {
   /** Sets the weights: previews them during a stroke, and plans at its end. */
   setWeights(weights: Float32Array | null, isFinal: boolean): void {
     this.weights = weights;
-    this.plate.keep({ weights });
-    // If the core refuses the weights, the plan fails and reports it.
-    if (this.model !== null) this.slicer.setWeights(weights).catch(() => undefined);
+    this.plate.paint(weights);
     this.host.painted?.(weights, isFinal);
     this.painted(isFinal);
   }
@@ -189,7 +189,7 @@ export abstract class Models extends Preferences {
   async openWeights(file: File): Promise<void> {
     const { model } = this;
     try {
-      const weights = await this.slicer.readWeights(file);
+      const weights = await this.selected.readWeights(file);
       if (this.model === model) this.setWeights(weights, true);
     } catch (error) {
       if (this.model === model && !isAbort(error)) this.refuse(error, file.name);
@@ -200,7 +200,7 @@ export abstract class Models extends Preferences {
   async saveWeights(): Promise<Download | null> {
     const { weights, model } = this;
     if (weights === null || model === null) return null;
-    return { name: weightsName(model.name), blob: await this.slicer.weightsFile(weights) };
+    return { name: weightsName(model.name), blob: await this.selected.weightsFile(weights) };
   }
 
   dismiss(): void {
@@ -222,15 +222,15 @@ export abstract class Models extends Preferences {
     this.dismiss();
     const call = {
       ...(name !== undefined && { name }),
-      ...(this.host.hasView?.() === true && { positions: true }),
+      ...this.#shown(),
       ...(reading !== undefined && { reading }),
     };
-    const loaded = await this.run("open", name ?? nameOf(source), null, (watch) => this.slicer.load(source, { ...watch, ...call }));
+    const loaded = await this.run("open", name ?? nameOf(source), null, (watch) => this.plate.open(source, { ...watch, ...call }));
     if (loaded === null) {
       await this.resume();
       return null;
     }
-    const { positions = null, ...model } = loaded;
+    const { positions, model } = loaded;
     // The rotation of the previous model does not apply to this one, nor do its unit and its points.
     const foreign = { ...withoutPlaced(this.settings), rotation: "", unit: "" } as const;
     if (this.model !== null && Object.entries(foreign).some(([key, value]) => this.settings[key as keyof Settings] !== value)) this.preset(foreign);
@@ -238,8 +238,6 @@ export abstract class Models extends Preferences {
     this.weights = null;
     this.positions = positions;
     this.left(true);
-    if (reading === undefined) this.plate.open(model);
-    else this.plate.reread(model);
     this.forgetModels();
     this.host.loaded?.(model);
     if (!waits) this.replan();
@@ -247,23 +245,20 @@ export abstract class Models extends Preferences {
   }
 
   /** Takes another model of the plate as the open one. */
-  async #select(entry: Entry): Promise<void> {
-    this.drop();
+  #select(entry: Entry): void {
     this.left(false);
-    this.#selecting = entry;
     const { model, weights, pose } = entry;
     this.settings = { ...this.settings, ...pose };
     this.model = model;
     this.weights = weights;
     this.positions = null;
-    this.changed();
-    const read = await this.run("open", model.name, null, (watch) => this.slicer.load(model.file, { ...watch, name: model.name, reading: model.reading }));
-    if (this.#selecting !== entry) return;
-    // Previews are of the selected model, also where somebody did not wait for it.
-    if (read === null) this.slicer.load(model.file, { name: model.name, reading: model.reading }).catch(() => undefined);
-    if (weights !== null) this.slicer.setWeights(weights).catch(() => undefined);
     this.host.settingsChanged?.(this.settings);
     this.replate();
+  }
+
+  /** Corners come with a model that is shown. */
+  #shown(): { positions?: true } {
+    return this.host.hasView?.() === true ? { positions: true } : {};
   }
 
   /** Keeps the pose of the selected model, which the settings have while it is selected. */

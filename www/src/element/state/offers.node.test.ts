@@ -1,7 +1,7 @@
 /** The ways out of settings that no plan fits, tried on the core itself. */
-import { readFile } from "node:fs/promises";
 import { beforeAll, expect, test } from "vitest";
-import { initSync, Slicer } from "../../../pkg/cusp_slicer.js";
+import type { Job } from "../../../pkg/cusp_slicer.js";
+import { jobOf, planOf, startCore } from "../../api/core.node-fixture.js";
 import { ofCore, type SlicerError } from "../../api/error.js";
 import type { Report } from "../../api/wire.js";
 import { binaryStl } from "../../page/example.js";
@@ -15,16 +15,14 @@ const ENGLISH = languageOf("en");
 const TEXTS = await fetchProblemTexts(ENGLISH);
 const HEIGHT_MM = 20;
 
-beforeAll(async () => {
-  initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
-});
+beforeAll(startCore);
 
 /** Plans a ball as the page does: a report, or the error of the core. */
-async function planned(slicer: Slicer, settings: Settings): Promise<Report | SlicerError> {
+async function planned(job: Job, settings: Settings): Promise<Report | SlicerError> {
   const checked = check(settings);
   if (!checked.ok) throw new Error(JSON.stringify(checked.faults));
   try {
-    return await slicer.plan({ ...checked.options, rays: 512, backend: "cpu" }, () => undefined);
+    return await planOf(job, { ...checked.options, rays: 512, backend: "cpu" });
   } catch (error) {
     const known = ofCore(error);
     if (known === null) throw error;
@@ -42,15 +40,15 @@ test.each([
   ["cusp in motor steps", "metric=cusp&tolerance=0.04&step=0.0025"],
   ["area in the least time", "metric=area&tolerance=7&minimize=time"],
 ])("where no plan holds, by %s, either offer leads to one that does", async (_, query) => {
-  const slicer = new Slicer(binaryStl(ball(HEIGHT_MM / 2, 96)), {});
+  const job = jobOf(binaryStl(ball(HEIGHT_MM / 2, 96)));
   const settings = fromAddress(query);
-  const error = await planned(slicer, settings);
+  const error = await planned(job, settings);
   if (!("code" in error)) throw new Error("there is a plan");
   const { offers } = explain({ error, task: "plan", name: "ball.stl", settings, height_mm: HEIGHT_MM }, ENGLISH, TEXTS, new Set());
   expect(offers.map(({ label }) => label.replace(/ [\d.]+.*$/, ""))).toEqual(["Tolerance", "Layers from"]);
   for (const { label, change } of offers) {
-    const report = await planned(slicer, changed(settings, change));
+    const report = await planned(job, changed(settings, change));
     expect("code" in report ? report.code : report.max_error <= report.tolerance, label).toBe(true);
   }
-  slicer.free();
+  job.free();
 });

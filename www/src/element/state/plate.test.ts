@@ -1,39 +1,36 @@
 import { beforeEach, expect, test } from "vitest";
-import type { WorkerHandle } from "../../api/calls.js";
-import { fakePlate } from "../../api/fake-plate.js";
-import { createPlate } from "../../api/plate.js";
-import type { ArrangeError, Placement, PlateOptions, SlicerWorker } from "../../api/wire.js";
-import { FakeSlicer, model, planOf } from "./fake-slicer.js";
+import { fakeWorkers } from "../../api/fake-worker.js";
+import { createSlicer } from "../../api/index.js";
+import type { ArrangeError, JobOptions, Placement } from "../../api/wire.js";
 import { MOST_COPIES, Plate, type Added, type Entry } from "./plate.js";
 
 /** What the fake worker was asked, and what it answers. */
 let log: string[];
-let jobs: PlateOptions[];
+let jobs: JobOptions[];
 let answers: ArrangeError[];
 /** What the plate told its host. */
 let told: string[];
 /** The kinds of its undo steps. */
 let steps: string[];
-let slicer: FakeSlicer;
 let plate: Plate;
 
-beforeEach(() => {
+beforeEach(async () => {
   log = [];
   jobs = [];
   answers = [];
   told = [];
   steps = [];
-  const spawn = (): WorkerHandle => {
-    const fake = fakePlate(async (what) => void log.push(what));
-    const planPlate: SlicerWorker["planPlate"] = (options, progress) => {
+  const spawn = fakeWorkers(log);
+  const watched = (): ReturnType<typeof spawn> => {
+    const handle = spawn();
+    const { plan } = handle.remote;
+    handle.remote.plan = (options, progress) => {
       jobs.push(options);
-      return fake.planPlate(options, progress);
+      return plan(options, progress);
     };
-    const plateProblems = (): ArrangeError[] => answers;
-    const remote = { boot: async () => ({}), memory: () => 0, ...fake, planPlate, plateProblems } as unknown as SlicerWorker;
-    return { remote, terminate: () => undefined, onBroken: () => undefined };
+    handle.remote.problems = () => answers;
+    return handle;
   };
-  slicer = Object.assign(new FakeSlicer(), { plate: createPlate(spawn, { module: null, address: "" }) });
   const host = {
     changed: () => undefined,
     changing: (kind: string | null) => void (kind !== null && steps.push(kind)),
@@ -41,20 +38,19 @@ beforeEach(() => {
     show: () => told.push("show"),
     selected: ({ model }: Entry) => told.push(`selected ${model.name}`),
   };
-  plate = new Plate(host, slicer);
-  plate.open({ ...model, file: new Blob(["cup"]) });
+  plate = new Plate(host, createSlicer({ spawn: watched }));
+  await plate.open(new Blob(["cup"]), { name: "a.stl" });
 });
 
 const added = (name: string): Added => ({ source: new File([name], `${name}.stl`), own: {} });
 
 const ring = added("ring");
 
-test("a single copy is planned by the slicer itself, with all of its options", async () => {
-  const planned = plate.plan({ tolerance: 1, height_mm: 5 }, {});
-  slicer.last.resolve(planOf(3));
-  expect((await planned).report.layers).toBe(3);
-  expect(slicer.last.options).toEqual({ tolerance: 1, height_mm: 5 });
-  expect(log).toEqual([]);
+test("a single copy is planned with all of its options", async () => {
+  plate.keep({ own: { height_mm: 5 } });
+  await plate.plan({ tolerance: 1, height_mm: 5 }, {});
+  expect(jobs).toEqual([{ options: { tolerance: 1, height_mm: 5 }, models: [{}], placements: [] }]);
+  expect(plate.planned).toBeNull();
 });
 
 test("several are planned on the plate, each in its own pose", async () => {
@@ -64,8 +60,7 @@ test("several are planned on the plate, each in its own pose", async () => {
   await plate.plan({ tolerance: 1, height_mm: 5, rotation: [0, 0, 1, 0] }, {});
   expect(jobs[0]?.options).toEqual({ tolerance: 1 });
   expect(jobs[0]?.models).toEqual([{ copies: 1, height_mm: 5 }, { copies: 3 }]);
-  expect(log).toEqual(["add cup", "add ring", "plan 1 of cup ring, 1 3 copies"]);
-  expect(slicer.calls).toEqual([]);
+  expect(log).toEqual(["1: add cup", "1: add ring", "1: plan 1 of cup ring×3"]);
 });
 
 test("where several stand, points placed by hand are left to be placed automatically", async () => {
@@ -85,18 +80,18 @@ test("a file that cannot be read leaves the models as they were, also those read
   expect(plate.entries).toHaveLength(1);
   plate.setCopies(0, 2);
   await plate.plan({ tolerance: 1 }, {});
-  expect(log.at(-1)).toBe("plan 1 of cup, 2 copies");
+  expect(log.at(-1)).toBe("1: plan 1 of cup×2");
 });
 
-test("two copies of one model are a plate; taking one away goes back to the slicer", async () => {
+test("two copies of one model are a plate; taking one away goes back to a copy in the middle", async () => {
   plate.setCopies(0, 2);
   expect(plate.isSeveral).toBe(true);
   await plate.plan({}, {});
   expect(plate.planned).not.toBeNull();
   plate.setCopies(0, 1);
   expect(plate.isSeveral).toBe(false);
-  void plate.plan({}, {});
-  expect(slicer.last.what).toBe("plan");
+  await plate.plan({}, {});
+  expect(jobs.at(-1)?.models).toEqual([{}]);
   expect(plate.planned).toBeNull();
   expect(told).toEqual(["replate", "replate"]);
 });
@@ -139,7 +134,7 @@ test("removing a model before the selected one keeps that selected", async () =>
   plate.remove(0);
   expect(plate.entries[plate.selected]?.model.name).toBe("pin.stl");
   await plate.plan({ tolerance: 1 }, {});
-  expect(log.at(-1)).toBe("plan 1 of ring pin, 1 1 copies");
+  expect(log.at(-1)).toBe("1: plan 1 of ring pin");
 });
 
 const placements: Placement[] = [
@@ -205,7 +200,7 @@ test("another plate is shown without planning again, and its masks and file are 
   expect(told).toEqual(["replate", "show"]);
   await plate.mask(4);
   const { name } = await plate.export({});
-  expect(log.slice(-2)).toEqual(["mask 4 of plate 1", "archive 1"]);
+  expect(log.slice(-2)).toEqual(["1: mask 4 of plate 1, 1", "1: archive 1"]);
   expect(name).toBe("plate-2-cusp.uvj");
   plate.show(7);
   expect(plate.number).toBe(1);
@@ -217,10 +212,10 @@ test("a model that comes back between others is read again with those after it, 
   const { state } = plate;
   plate.remove(1);
   await plate.plan({ tolerance: 1 }, {});
-  expect(log.at(-1)).toBe("plan 1 of cup pin, 1 1 copies");
+  expect(log.at(-1)).toBe("1: plan 1 of cup pin");
   expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(true);
   await plate.plan({ tolerance: 1 }, {});
-  expect(log.at(-1)).toBe("plan 1 of cup ring pin, 1 1 1 copies");
+  expect(log.at(-1)).toBe("1: plan 1 of cup ring pin");
   expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(false);
   expect(steps).toEqual(["add", expect.stringMatching(/^remove /)]);
 });

@@ -1,16 +1,13 @@
-/**
- * The models of a session, of which one is selected. It stands between the session and the slicer: a single copy of one model goes
- * the slicer's own way, several go to its plate, and the session shows the plan of one plate as it shows that of a model.
- */
-import { SCHEMA, type Mask, type Model, type OrderedPlates, type Plan, type PlatesPlan, type PrintFile, type Watch } from "../../api/index.js";
+/** The models of a session, of which one is selected, and where their copies stand. The session shows the plan of one plate. */
+import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import { DEFAULTS } from "../../api/wire.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
-import { Brought } from "./brought.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
 import { jobOf } from "./job-options.js";
 import { quaternion, rotationText, type Fault, type Settings } from "./settings.js";
+import { Sync } from "./sync.js";
 import { read } from "./typed.js";
 
 /** What the settings say about the selected model alone. */
@@ -98,7 +95,8 @@ export class Plate {
   placed: readonly Placement[] = [];
   /** Where copies stand in the plan or by hand. */
   placements: readonly Placement[] = [];
-  planned: PlatesPlan | null = null;
+  /** The plan of several copies; null if there is only one. */
+  planned: Plan | null = null;
   /** The models of that plan. */
   #planned: readonly Entry[] = [];
   problems: readonly ArrangeError[] = [];
@@ -106,7 +104,7 @@ export class Plate {
   misread: MisreadCopies | null = null;
   readonly #host: PlateHost;
   readonly #slicer: SlicerCalls;
-  readonly #brought: Brought;
+  readonly #sync: Sync;
   #keys = 0;
   #job = 0;
   /** Whether a copy is being moved and has not been released. */
@@ -119,13 +117,14 @@ export class Plate {
   };
   #crowded: { placements: unknown; problems: unknown; places: ReadonlySet<number> } = { placements: null, problems: null, places: new Set() };
   #options: Options = {};
+  #isSparing = false;
   #isAsking = false;
   #asked: readonly Placement[] | null = null;
 
   constructor(host: PlateHost, slicer: SlicerCalls) {
     this.#host = host;
     this.#slicer = slicer;
-    this.#brought = new Brought(slicer);
+    this.#sync = new Sync(slicer);
   }
 
   /** Whether the job is more than one copy of one model. */
@@ -172,34 +171,50 @@ export class Plate {
     return places;
   }
 
-  /** Starts again with one model. */
-  open(model: Model): void {
-    this.#job++;
-    this.#take([this.#entryOf(model)]);
-    this.selected = 0;
+  /** Reads a model in place of all others; with choices, the selected one again, whose copies stay. */
+  async open(source: Source, call: LoadCall): Promise<Entry & { positions: Float32Array | null }> {
+    const isAgain = call.reading !== undefined;
+    const isAlone = !isAgain || this.entries.length < 2;
+    const { positions, ...model } = await this.#sync.read(source, call, isAlone);
+    const { copies = 1 } = this.entries[this.selected] ?? {};
+    const entry = this.#entryOf(model, isAgain ? { copies } : {});
+    this.#sync.note(entry, isAlone, positions);
+    if (isAgain) {
+      this.#take(this.entries.map((it, place) => (place === this.selected ? entry : it)));
+    } else {
+      this.#job++;
+      this.entries = [entry];
+      this.selected = 0;
+    }
     this.#forget();
+    return { ...entry, positions: positions ?? null };
   }
 
-  /** Takes the selected model as it was read again; its copies stay. */
-  reread(model: Model): void {
-    const { copies = 1 } = this.entries[this.selected] ?? {};
-    this.#take(this.entries.map((entry, place) => (place === this.selected ? this.#entryOf(model, { copies }) : entry)));
-    this.#forget();
+  /** The slicer's number of the selected model. */
+  get selectedId(): number | undefined {
+    return this.#sync.idOf(this.entries[this.selected]?.key);
+  }
+
+  /** Sets the weights of the selected model. If the core refuses them, the plan fails and reports it. */
+  paint(weights: Float32Array | null): void {
+    this.keep({ weights });
+    const { key } = this.entries[this.selected] ?? {};
+    if (key !== undefined) this.#sync.paint(key, weights, {}).catch(() => undefined);
   }
 
   /** Reads models and adds them after the others: all, or on a failure none. Returns the new ones. */
-  async add(added: readonly Added[], watch: Watch): Promise<readonly Entry[]> {
+  async add(added: readonly Added[], call: LoadCall): Promise<readonly Entry[]> {
     const entries: Entry[] = [];
     try {
-      await this.#brought.bring(this.entries, watch);
+      await this.#sync.bring(this.entries, call);
       for (const { source, own, name } of added) {
-        const { id, ...read } = await this.#slicer.plate.add(source, {}, name === undefined ? watch : { ...watch, name });
-        const entry = this.#entryOf({ schema: SCHEMA, name: read.name, file: read.file, reading: read.reading, info: read.info }, own);
-        this.#brought.note(entry, id);
+        const { positions, ...model } = await this.#sync.read(source, name === undefined ? call : { ...call, name }, false);
+        const entry = this.#entryOf(model, own);
+        this.#sync.note(entry, false, positions);
         entries.push(entry);
       }
     } catch (error) {
-      for (const entry of entries) this.#brought.leave(entry);
+      for (const entry of entries) this.#sync.leave(entry);
       throw error;
     }
     this.#host.changing("add");
@@ -313,10 +328,11 @@ export class Plate {
 
   /** Shows another plate. */
   show(number: number): void {
-    const plan = this.planned?.plates[number];
-    if (plan === undefined) return;
+    const { planned } = this;
+    const plan = planned?.plates[number];
+    if (planned === null || plan === undefined) return;
     this.number = number;
-    this.#host.show({ schema: SCHEMA, ...plan });
+    this.#host.show({ ...planned, ...plan });
   }
 
   /** Height of a model in the last plan, by its place; null without a plan of several. */
@@ -327,47 +343,50 @@ export class Plate {
 
   /** The corners of all facets of a model, fetched once. */
   positionsOf(entry: Entry): Promise<Float32Array> {
-    return this.#brought.positionsOf(entry);
+    return this.#sync.positionsOf(entry);
   }
 
   /** @param isSparing see `jobOf` */
   async plan(options: Options, watch: Watch, isSparing = false): Promise<Plan> {
+    const { entries, placed, arranging } = this;
+    const synced = this.#sync.bring(entries, watch);
+    // A call keeps its place among others only if it is made at once.
+    if (synced !== null) await synced;
     if (!this.isSeveral) {
       this.planned = null;
       this.placements = this.problems = [];
       return this.#slicer.plan(options, watch);
     }
-    const { entries, placed, arranging } = this;
     this.#options = jobOf(options, isSparing);
-    await this.#brought.bring(entries, watch);
-    const planned = await this.#slicer.plate.plan(this.#options, { ...watch, arranging, placements: placed });
+    this.#isSparing = isSparing;
+    const planned = await this.#slicer.plan(this.#options, { ...watch, arranging, placements: placed });
     this.planned = planned;
     this.#planned = entries;
     this.number = Math.min(this.number, planned.plates.length - 1);
     this.problems = [];
-    // A single copy has no placement.
     this.placements = placed.length > 0 ? placed : planned.plates.flatMap(({ report }) => report.plate?.placements ?? []);
     const plan = planned.plates[this.number];
     if (plan === undefined) throw new Error("a plan without plates");
-    return { schema: SCHEMA, ...plan };
+    return { ...planned, ...plan };
   }
 
   mask(layer: number): Promise<Mask> {
-    return this.planned === null ? this.#slicer.mask(layer) : this.#slicer.plate.mask(this.number, layer);
+    return this.#slicer.mask(layer, { plate: this.number });
   }
 
-  export(watch: Watch, number = this.number): Promise<PrintFile> {
-    return this.planned === null ? this.#slicer.export(undefined, watch) : this.#slicer.plate.export(number, watch);
+  export(watch: Watch, plate = this.number): Promise<PrintFile> {
+    return this.#slicer.export(undefined, { ...watch, plate });
   }
 
-  price(prices: Prices, ordered: OrderedPlates): Promise<Price> {
-    return this.planned === null ? this.#slicer.price(prices, ordered) : this.#slicer.plate.price(prices, ordered);
+  price(prices: Prices, ordered: Ordered): Promise<Price> {
+    return this.#slicer.price(prices, ordered);
   }
 
-  /** The curve of a model, or of the plate shown. */
-  async tradeoff(options?: Options, points?: number, watch?: Watch): Promise<Tradeoff & { schema: typeof SCHEMA }> {
-    if (this.planned !== null) return this.#slicer.plate.tradeoff(this.number, points, watch);
-    return this.#slicer.tradeoff(options, points, watch);
+  /** The curve of the plate shown. */
+  async tradeoff(options: Options = {}, points?: number, watch: Watch = {}): Promise<Tradeoff & { schema: typeof SCHEMA }> {
+    if (this.planned === null) return this.#slicer.tradeoff(options, points, watch);
+    const { number: plate, placements } = this;
+    return this.#slicer.tradeoff(jobOf(options, this.#isSparing), points, { ...watch, plate, placements });
   }
 
   /** Asks what is wrong with the places, one call at a time; the newest counts. */
@@ -379,7 +398,7 @@ export class Plate {
       while (this.#asked !== null) {
         const asked = this.#asked;
         this.#asked = null;
-        const problems = await this.#slicer.plate.problems(this.#options, asked);
+        const problems = await this.#slicer.problems(this.#options, asked);
         if (this.placements !== asked && this.#asked === null) break;
         this.problems = problems;
         this.#host.changed();
@@ -398,7 +417,7 @@ export class Plate {
   /** Replaces the models; those that are gone leave the slicer's plate. */
   #take(entries: readonly Entry[]): void {
     const kept = new Set(entries.map(({ key }) => key));
-    for (const entry of this.entries) if (!kept.has(entry.key)) this.#brought.leave(entry);
+    for (const entry of this.entries) if (!kept.has(entry.key)) this.#sync.leave(entry);
     this.entries = entries;
   }
 

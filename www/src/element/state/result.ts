@@ -35,14 +35,19 @@ export function ownHeight({ height_mm, supported }: Report): number {
   return height_mm - (supported?.lift_mm ?? 0);
 }
 
-/** What a plan has besides its report. */
-type Drawn = Pick<Plan, "profile" | "supports" | "voids">;
+/** What is added to a model. */
+interface Added {
+  readonly supports?: Float32Array | undefined;
+  readonly voids?: Float32Array | undefined;
+}
 
-export function shownOf(report: Report | Preview, { profile, supports, voids }: Drawn): Shown {
+export function shownOf(report: Report | Preview, profile: Float32Array, added: Added | null = null): Shown {
   const lift_mm = "lift_mm" in report ? report.lift_mm : (report.supported?.lift_mm ?? 0);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports: supports ?? null, voids: voids ?? null };
+  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports: filled(added?.supports), voids: filled(added?.voids) };
 }
+
+const filled = (positions: Float32Array | undefined): Float32Array | null => (positions === undefined || positions.length === 0 ? null : positions);
 
 /** Whether two sets of options, with their keys in the same order, ask for the same plan. */
 export function areSame(a: Options | null, b: Options | null): boolean {

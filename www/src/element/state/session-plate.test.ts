@@ -1,20 +1,25 @@
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
-import type { PlateModel, PlatesPlan } from "../../api/index.js";
+import type { Loaded, Plan } from "../../api/index.js";
 import { model, planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer } from "./session-fixture.js";
 
-/** A plate that reads every file and plans at once. */
+/** A slicer that reads every file that is added, and plans several copies at once. */
 function plates(): void {
-  let ids = 0;
-  Object.assign(slicer.plate, {
-    add: async (file: File): Promise<PlateModel> => ({ ...model, id: ++ids, name: file.name ?? "a.stl", file, own: {} }),
+  let ids = 1;
+  const { plan } = slicer;
+  Object.assign(slicer, {
+    add: async (file: File, own = {}, { name, reading = {} }: { name?: string; reading?: object } = {}): Promise<Loaded> => {
+      if (reading === UNREADABLE) throw new SlicerError("file-unreadable", "nothing");
+      return { ...model, id: ++ids, name: name ?? file.name ?? "a.stl", file, own, reading };
+    },
     update: async () => undefined,
     remove: async () => undefined,
-    setWeights: async () => undefined,
-    plan: async (): Promise<PlatesPlan> => ({ schema: 2, plates: [planOf(33)], print_time_s: 1, resin_ml: 1 }),
+    plan: (...given: Parameters<typeof plan>): Promise<Plan> => (session.plate.isSeveral ? Promise.resolve(planOf(33)) : plan(...given)),
   });
 }
+
+const UNREADABLE = { plate_number: 3 };
 
 const ring = new File(["ring"], "ring.stl");
 
@@ -30,7 +35,7 @@ test("a model that is added is planned with the open one, which stays selected",
 
 test("a file that cannot be added is explained, and the plan stays", async () => {
   await planned(10);
-  Object.assign(slicer.plate, { add: () => Promise.reject(new SlicerError("file-unreadable", "no")) });
+  Object.assign(slicer, { add: () => Promise.reject(new SlicerError("file-unreadable", "no")) });
   await session.add([ring]);
   await settle();
   expect(session.failure?.error.code).toBe("file-unreadable");
@@ -41,13 +46,6 @@ test("a file that cannot be added is explained, and the plan stays", async () =>
 /** Selects a model and waits until it is planned. */
 async function select(place: number): Promise<void> {
   session.plate.select(place);
-  await read();
-}
-
-/** Lets the slicer read the selected model. */
-async function read(): Promise<void> {
-  expect(slicer.last.what).toBe("open");
-  slicer.last.resolve(model);
   await settle();
 }
 
@@ -58,20 +56,15 @@ test("another plate of a project is read in the place of the selected model, who
   session.plate.setCopies(0, 3);
   await settle();
   const reading = { plate_number: 2 };
-  const reread = session.reread(reading);
-  expect(slicer.loads.at(-1)?.reading).toBe(reading);
-  slicer.last.resolve({ ...model, name: "second", reading });
-  await reread;
+  await session.reread(reading);
   await settle();
-  expect(names()).toEqual(["second", "ring.stl"]);
+  expect(names()).toEqual(["a.stl", "ring.stl"]);
   expect(session.plate.entries.map(({ copies }) => copies)).toEqual([3, 1]);
   expect(session.model?.reading).toBe(reading);
   expect(session.result?.report.layers).toBe(33);
   // A plate that cannot be read leaves the model.
-  const failing = session.reread({ plate_number: 3 });
-  slicer.last.reject(new SlicerError("file-unreadable", "nothing"));
-  expect(await failing).toBeNull();
-  expect(names()).toEqual(["second", "ring.stl"]);
+  expect(await session.reread(UNREADABLE)).toBeNull();
+  expect(session.plate.entries[0]?.model.reading).toBe(reading);
 });
 
 const names = (): string[] => session.plate.entries.map(({ model }) => model.name);
@@ -88,12 +81,12 @@ test("each model keeps its pose, and undo goes back to the model whose pose it c
   expect(session.settings.height).toBe("");
   expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([5, undefined]);
   session.undo();
-  await read();
+  await settle();
   expect(session.model?.name).toBe("a.stl");
   expect(session.settings.height).toBe("");
   expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([undefined, undefined]);
   session.redo();
-  await read();
+  await settle();
   expect(session.model?.name).toBe("ring.stl");
   expect(session.plate.entries.map(({ own }) => own.height_mm)).toEqual([5, undefined]);
 });
@@ -121,10 +114,10 @@ test("a removed model comes back to its place, with its copies and weights", asy
   session.setWeights(weights, true);
   await settle();
   session.plate.remove(0);
-  await read();
+  await settle();
   expect([names(), session.weights]).toEqual([["ring.stl"], null]);
   session.undo();
-  await read();
+  await settle();
   expect(names()).toEqual(["a.stl", "ring.stl"]);
   expect(session.plate.entries[0]).toMatchObject({ copies: 3, weights });
   expect(session.weights).toBe(weights);

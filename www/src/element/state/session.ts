@@ -58,7 +58,7 @@ export class Session extends Models {
       const { model, options, weights } = this;
       return model === null || options === null ? null : { name: model.name, options, weights };
     };
-    this.orientation = new OrientationSearch({ ...reports, subject }, slicer);
+    this.orientation = new OrientationSearch({ ...reports, subject }, this.selected);
     const own = (): Result | null => this.result;
     this.checks = new Checks(
       {
@@ -79,7 +79,7 @@ export class Session extends Models {
       curve: this.#curve,
       checks: this.checks,
     });
-    this.#follower = new Follower(slicer, (shown) => {
+    this.#follower = new Follower(this.selected, (shown) => {
       this.shown = shown;
       this.changed();
     });
@@ -343,7 +343,9 @@ export class Session extends Models {
     const result = { ...plan, options, limits: report.layer_range_mm };
     this.result = result;
     this.#weightsOf = weights;
-    this.shown = shownOf(report, plan);
+    const { isSeveral, selected } = this.plate;
+    // Copies have their own.
+    this.shown = shownOf(report, plan.profile, isSeveral ? null : { supports: plan.supports?.[selected], voids: plan.voids?.[selected] });
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;

@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::super::Options;
+use super::Options;
 use crate::arrange::{ArrangeError, Arranging};
 use crate::plan::HeightRange;
 
@@ -67,7 +67,7 @@ pub struct Placement {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
-pub struct PlateOptions {
+pub struct JobOptions {
     /// What holds for all models; printer, layers and resin among it.
     pub options: Options,
     /// The models, in the order in which they were loaded.
@@ -81,9 +81,17 @@ pub struct PlateOptions {
 /// Copies in all, of all models.
 const MOST_COPIES: usize = 10_000;
 
-impl PlateOptions {
+impl JobOptions {
+    /// One copy of one model.
+    pub fn of(options: Options) -> Self {
+        Self {
+            options,
+            ..Self::default()
+        }
+    }
+
     /// Checks that there are not too many copies, and that places are those of the copies that are asked for, plate by plate.
-    pub(in crate::job) fn check(&self) -> Result<(), ArrangeError> {
+    pub(super) fn check(&self) -> Result<(), ArrangeError> {
         let of_models = self.models.iter().map(|model| model.copies);
         let copies = of_models
             .fold(0, usize::saturating_add)
@@ -124,12 +132,12 @@ impl PlateOptions {
     }
 
     /// The options of a model by its index. If it is the only one, they say all that its own say.
-    pub(in crate::job) fn of_model(&self, model: usize) -> ModelOptions {
+    pub(super) fn of_model(&self, model: usize) -> ModelOptions {
         self.models.get(model).cloned().unwrap_or_default()
     }
 
     /// The options of the only model, alone on its plate.
-    pub(in crate::job) fn alone(&self) -> Options {
+    pub(super) fn alone(&self) -> Options {
         let own = self.of_model(0);
         let mut options = self.options.clone();
         options.rotation = own.rotation.or(options.rotation);

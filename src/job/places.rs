@@ -2,11 +2,9 @@
 
 use std::sync::Arc;
 
-use super::super::Timings;
-use super::super::parts::{Job, Raster, Sampling};
-use super::super::prepared::Prepared;
-use super::{Placement, Plate, PlateOptions};
-use crate::Error;
+use super::parts::{Raster, Resolved, Sampling};
+use super::prepared::Prepared;
+use super::{Error, Job, JobOptions, Placement, Timings};
 use crate::arrange::{
     ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems, shadow_mm2,
 };
@@ -58,18 +56,18 @@ impl Posed<'_> {
     }
 }
 
-impl Plate {
+impl Job {
     /// Where copies stand when they are arranged: for the fewest plates, then the lowest.
     ///
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
-    pub fn arrange(&mut self, options: &PlateOptions) -> Result<Vec<Placement>, Error> {
+    pub fn arrange(&mut self, options: &JobOptions) -> Result<Vec<Placement>, Error> {
         options.check()?;
-        let job = options.options.resolve()?;
-        let screen = screen_of(&job.sampling)?;
-        self.prepare_silently(options, &job)?;
-        let extents = self.extents(options, &job, &screen)?;
-        let places = self.arranged(options, &job, &screen, &extents)?;
+        let resolved = options.options.resolve()?;
+        let screen = screen_of(&resolved.sampling)?;
+        self.prepare_silently(options, &resolved)?;
+        let extents = self.extents(options, &resolved, &screen)?;
+        let places = self.arranged(options, &resolved, &screen, &extents)?;
         Ok(places
             .iter()
             .map(|place| placement(&screen, place))
@@ -78,8 +76,8 @@ impl Plate {
 
     pub(super) fn arranged(
         &self,
-        options: &PlateOptions,
-        job: &Job,
+        options: &JobOptions,
+        resolved: &Resolved,
         screen: &Screen,
         extents: &[Extent],
     ) -> Result<Vec<Place>, Error> {
@@ -87,7 +85,7 @@ impl Plate {
             return Err(ArrangeError::Empty.into());
         }
         let outline_of = |(model, extent): (usize, &Extent)| {
-            let posed = self.posed(options, job, model);
+            let posed = self.posed(options, resolved, model);
             let shadow = extent.shadow.clone();
             move |turns| match turns {
                 0 => Ok(shadow.clone()),
@@ -112,47 +110,47 @@ impl Plate {
     /// The extent of each model and of its shadow.
     pub(super) fn extents(
         &self,
-        options: &PlateOptions,
-        job: &Job,
+        options: &JobOptions,
+        resolved: &Resolved,
         screen: &Screen,
     ) -> Result<Vec<Extent>, Error> {
-        let posed = (0..self.models.len()).map(|model| self.posed(options, job, model));
+        let posed = (0..self.models.len()).map(|model| self.posed(options, resolved, model));
         parallel::map(posed.collect(), |posed: Posed<'_>| posed.extent(screen))
             .into_iter()
             .collect()
     }
 
-    fn prepare_silently(&mut self, options: &PlateOptions, job: &Job) -> Result<(), Error> {
+    fn prepare_silently(&mut self, options: &JobOptions, resolved: &Resolved) -> Result<(), Error> {
         let mut silent = |_, _| std::ops::ControlFlow::Continue(());
-        self.prepare(options, job, &mut Timings::default(), &mut silent)
+        self.prepare(options, resolved, &mut Timings::default(), &mut silent)
     }
 
-    fn posed(&self, options: &PlateOptions, job: &Job, model: usize) -> Posed<'_> {
+    fn posed(&self, options: &JobOptions, resolved: &Resolved, model: usize) -> Posed<'_> {
         Posed {
-            mesh: &self.models[model].model,
-            pose: self.pose_of(options, job, model),
-            prepared: self.prepared.get(model),
+            mesh: &self.models[model].mesh,
+            pose: self.pose_of(options, resolved, model),
+            prepared: self.prepared.get(model).and_then(Option::as_ref),
         }
     }
 
     /// How a model is sampled, after turns.
     pub(super) fn sampling_of(
         &self,
-        options: &PlateOptions,
-        job: &Job,
+        options: &JobOptions,
+        resolved: &Resolved,
         model: usize,
         turns: u32,
     ) -> Sampling {
         Sampling {
-            pose: self.pose_of(options, job, model).turned(turns),
-            ..job.sampling.clone()
+            pose: self.pose_of(options, resolved, model).turned(turns),
+            ..resolved.sampling.clone()
         }
     }
 
     /// The pose of a model before turns.
-    pub(super) fn pose_of(&self, options: &PlateOptions, job: &Job, model: usize) -> Pose {
+    pub(super) fn pose_of(&self, options: &JobOptions, resolved: &Resolved, model: usize) -> Pose {
         let own = options.of_model(model);
-        let shared = &job.sampling.pose;
+        let shared = &resolved.sampling.pose;
         Pose {
             rotation: own.rotation.or(shared.rotation),
             height_mm: own.height_mm.or(shared.height_mm),
@@ -168,14 +166,14 @@ impl Plate {
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
     pub fn problems(
         &mut self,
-        options: &PlateOptions,
+        options: &JobOptions,
         placements: &[Placement],
     ) -> Result<Vec<ArrangeError>, Error> {
-        let job = options.options.resolve()?;
-        let screen = screen_of(&job.sampling)?;
-        self.prepare_silently(options, &job)?;
+        let resolved = options.options.resolve()?;
+        let screen = screen_of(&resolved.sampling)?;
+        self.prepare_silently(options, &resolved)?;
         let places = self.places(&screen, placements)?;
-        self.problems_of(options, &job, &screen, &places)
+        self.problems_of(options, &resolved, &screen, &places)
     }
 
     pub(super) fn places(
@@ -209,8 +207,8 @@ impl Plate {
 
     pub(super) fn problems_of(
         &self,
-        options: &PlateOptions,
-        job: &Job,
+        options: &JobOptions,
+        resolved: &Resolved,
         screen: &Screen,
         places: &[Place],
     ) -> Result<Vec<ArrangeError>, Error> {
@@ -218,7 +216,7 @@ impl Plate {
         let kinds = kinds(places);
         let turned = kinds
             .iter()
-            .map(|&(model, turns)| (self.posed(options, job, model), turns));
+            .map(|&(model, turns)| (self.posed(options, resolved, model), turns));
         let outlines = parallel::map(turned.collect(), |(posed, turns): (Posed<'_>, u32)| {
             posed.outline(turns, &pixels)
         });

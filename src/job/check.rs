@@ -4,9 +4,8 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::super::stage::{Stage, StageProgress};
-use super::Plate;
-use crate::Error;
+use super::stage::{Stage, StageProgress};
+use super::{Error, Job};
 use crate::arrange::TURN_DEG;
 use crate::inspect::{self, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
@@ -36,18 +35,19 @@ pub struct ModelPrintability {
     pub found: Printability,
 }
 
-impl Plate {
+impl Job {
     /// What will fail on each model of a plate, by these limits: each is checked as if it stood alone, in the layers of the plate.
     ///
     /// # Errors
-    /// [`Error::NoPlan`], [`Error::Arrange`]; [`Error::Ldi`] if `progress` cancels.
+    /// [`Error::NoPlan`], [`Error::Limits`], [`Error::Arrange`]; [`Error::Ldi`] if `progress` cancels.
     pub fn inspect(
         &mut self,
         plate: usize,
         limits: &Limits,
         progress: &mut StageProgress<'_>,
     ) -> Result<PlatePrintability, Error> {
-        let current = self.current(plate)?;
+        limits.check()?;
+        let current = self.plate_mut(plate)?;
         let planned = Arc::clone(&current.planned);
         let (masks, _) = current.seen()?;
         let count = planned.models.len() as f64;

@@ -2,13 +2,10 @@
 
 use serde::Serialize;
 
-use super::super::Report;
-use super::super::planned::Planned;
-use super::super::planning::{Part, Planning};
-use super::places::{Extent, placement};
-use super::shapes::Shape;
-use super::{ModelOptions, Placement, Plate, PlateOptions};
-use crate::arrange::{Place, Screen};
+use super::places::Extent;
+use super::planned::{Planned, PlannedModel};
+use super::planning::Planning;
+use super::{Job, JobOptions, ModelOptions, Placement, Report};
 use crate::model::ModelFile;
 use crate::plan::Plan;
 use crate::resin::Resin;
@@ -61,42 +58,36 @@ pub struct PlateModelReport {
     pub warnings: Vec<Warning>,
 }
 
-impl Plate {
-    pub(super) fn plate_report(
+impl Job {
+    /// The models of a plate, each with its share of the plan.
+    pub(super) fn shares(
         &self,
-        options: &PlateOptions,
-        screen: &Screen,
+        options: &JobOptions,
         extents: &[Extent],
-        on_plate: &[Place],
         planned: &Planned,
-    ) -> PlateReport {
+    ) -> Vec<PlateModelReport> {
         let mut models = Vec::new();
         let mut sharers = Vec::new();
-        for same in on_plate.chunk_by(|a, b| a.item == b.item) {
-            let model = same[0].item;
-            let shapes = self.shapes.iter().filter(|shape| {
-                shape.model == model && same.iter().any(|place| place.turns == shape.turns)
-            });
-            let shapes: Vec<&Shape> = shapes.collect();
-            let sampled = &shapes[0].measured.of;
+        for turned in planned.models.chunk_by(|a, b| a.model == b.model) {
+            let model = turned[0].model;
+            let copies = turned.iter().map(|it| it.copies).sum();
+            let sampled = turned[0].sampled();
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
                 shadow_mm2: extents[model].shadow_mm2,
-                copies: same.len(),
+                copies,
             });
-            let parts = shapes
-                .iter()
-                .map(|shape| Part::alone(shape.measured.of.height_mm, &shape.measured.shapes));
+            let parts = turned.iter().map(PlannedModel::part_alone);
             let planning = Planning::new(parts.collect(), &planned.layering);
             models.push(PlateModelReport {
                 model,
                 file: self.models[model].facts.file.clone(),
                 options: ModelOptions {
-                    copies: same.len(),
+                    copies,
                     ..options.of_model(model)
                 },
                 weights_crc32: self.models[model].weights_crc32(),
-                copies: same.len(),
+                copies,
                 size_mm: extents[model].size_mm,
                 layers: layers_reaching(&planned.plan, sampled.height_mm),
                 resin_ml: sampled.survey.solid.volume_mm3 / 1e3,
@@ -110,15 +101,7 @@ impl Plate {
         for (model, share_s) in models.iter_mut().zip(shares_s) {
             model.print_time_s = share_s;
         }
-        PlateReport {
-            plate: 0,
-            plates: 0,
-            models,
-            placements: on_plate
-                .iter()
-                .map(|place| placement(screen, place))
-                .collect(),
-        }
+        models
     }
 }
 
@@ -165,7 +148,7 @@ fn time_shares_s(plan: &Plan, resin: &Resin, sharers: &[Sharer]) -> Vec<f64> {
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-pub struct PlatesReport {
+pub struct JobReport {
     /// The schema version of this object: [`crate::job::SCHEMA`].
     pub schema: u32,
     /// Print time of all plates, one after the other.

@@ -2,12 +2,9 @@
 
 use serde::Deserialize;
 
-use super::super::Report;
-use super::super::stage::StageProgress;
-use super::{ModelOptions, Placement, Plate, PlateOptions};
-use crate::Error;
+use super::stage::StageProgress;
+use super::{Error, Job, JobOptions, ModelOptions, Options, Placement, Report};
 use crate::arrange::Arranging;
-use crate::job::Options;
 use crate::model::ModelFile;
 
 /// What a submitted plan says of its plate. Unlike a report it says how copies stand, and nothing that follows from it.
@@ -28,12 +25,12 @@ struct ClaimedModel {
 
 impl ClaimedPlate {
     /// The files of its models, and their indices in the job.
-    pub(in crate::job) fn files(&self) -> impl Iterator<Item = (&ModelFile, usize)> {
+    pub(super) fn files(&self) -> impl Iterator<Item = (&ModelFile, usize)> {
         self.models.iter().map(|model| (&model.file, model.model))
     }
 
     /// The job that has only this plate, with the options that the plan claims.
-    fn job(&self, options: &Options) -> PlateOptions {
+    fn job(&self, options: &Options) -> JobOptions {
         let count = self.models.iter().map(|model| model.model + 1).max();
         let absent = ModelOptions {
             copies: 0,
@@ -47,7 +44,7 @@ impl ClaimedPlate {
                 ..model.options.clone()
             };
         }
-        PlateOptions {
+        JobOptions {
             options: options.clone(),
             models,
             arranging: Arranging::default(),
@@ -60,12 +57,12 @@ impl ClaimedPlate {
     }
 }
 
-impl Plate {
+impl Job {
     /// Plans a submitted plate again, as the only one, and numbers it as it was. Without a plate it is the only model, alone.
     ///
     /// # Errors
-    /// Those of [`Plate::plan`].
-    pub(in crate::job) async fn plan_claimed(
+    /// Those of [`Job::plan`].
+    pub(super) async fn plan_claimed(
         &mut self,
         claimed: Option<&ClaimedPlate>,
         options: &Options,
@@ -73,13 +70,10 @@ impl Plate {
     ) -> Result<&Report, Error> {
         let job = match claimed {
             Some(claimed) => claimed.job(options),
-            None => PlateOptions {
-                options: options.clone(),
-                ..PlateOptions::default()
-            },
+            None => JobOptions::of(options.clone()),
         };
         self.plan(&job, progress).await?;
-        let report = &mut self.current(0)?.report;
+        let report = &mut self.plate_mut(0)?.report;
         if let (Some(plate), Some(claimed)) = (&mut report.plate, claimed) {
             (plate.plate, plate.plates) = (claimed.plate, claimed.plates);
             for place in &mut plate.placements {

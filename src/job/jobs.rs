@@ -1,0 +1,455 @@
+//! Models × copies on plates, with the last result of each stage and what it was made from.
+
+use std::sync::Arc;
+
+use web_time::Instant;
+
+use super::memory::Memory;
+use super::outputs::Plate;
+use super::parts::{Layering, Resolved, Target};
+use super::planned::{Planned, PlannedModel};
+use super::prepared::Prepared;
+use super::report::{Origin, SCHEMA, report_of};
+use super::sampled::Sampler;
+use super::shapes::Shape;
+use super::stage::{Stage, StageProgress, ms_since, report as tell};
+#[cfg(not(target_arch = "wasm32"))]
+use super::work;
+use super::{
+    Error, JobOptions, JobReport, LoadedModel, Options, OptionsError, PlateReport, Report, Timings,
+};
+use crate::arrange::{ArrangeError, Place, Screen};
+use crate::ldi::gpu::Gpu;
+use crate::plan::HeightRange;
+
+use super::places::{Extent, placement, screen_of};
+
+/// Models that are printed together, or one alone. A change of options repeats only the stages that depend on it.
+#[derive(Debug, Default)]
+pub struct Job {
+    pub(super) models: Vec<LoadedModel>,
+    pub(super) sampler: Sampler,
+    /// What may be taken, if that is bounded.
+    pub(super) memory: Option<Memory>,
+    /// The models with their voids and supports, if they get some: before turns, in the order of models.
+    pub(super) prepared: Vec<Option<Arc<Prepared>>>,
+    pub(super) shapes: Vec<Shape>,
+    pub(super) plates: Vec<Plate>,
+}
+
+/// Where copies stand, before anything is sampled.
+pub(super) struct Layout {
+    pub resolved: Resolved,
+    /// The options that the report repeats.
+    shared: Options,
+    /// A single copy of a single model, in the middle.
+    is_alone: bool,
+    /// The screen and the extents of models, unless a model is alone.
+    sized: Option<(Screen, Vec<Extent>)>,
+    /// Ascending by plate.
+    places: Vec<Place>,
+}
+
+impl Layout {
+    pub fn places(&self) -> &[Place] {
+        &self.places
+    }
+
+    /// The places of copies, plate by plate.
+    fn plates(&self) -> impl ExactSizeIterator<Item = &[Place]> {
+        let plates: Vec<_> = self.places.chunk_by(|a, b| a.plate == b.plate).collect();
+        plates.into_iter()
+    }
+}
+
+impl Job {
+    /// A job of these models.
+    pub fn new(models: Vec<LoadedModel>) -> Self {
+        Self {
+            models,
+            ..Self::default()
+        }
+    }
+
+    /// Samples on `gpu` from now on, unless the options ask for the CPU.
+    #[must_use]
+    pub fn with_gpu(mut self, gpu: Gpu) -> Self {
+        self.sampler.set_gpu(gpu);
+        self
+    }
+
+    /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found anew
+    /// when they are needed, and print files are the same. Models share them equally. See [`Error::MemoryBound`] for what is not
+    /// possible.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_memory(mut self, bytes: u64) -> Self {
+        self.memory = Some(Memory::of(bytes));
+        self
+    }
+
+    /// Plans no plate from now on that is certain to take more processor time than this, in seconds: see [`Error::TimeBound`]. Callers
+    /// that must keep to it also cancel by progress.
+    #[cfg(not(target_arch = "wasm32"))]
+    #[must_use]
+    pub fn with_cpu_time(mut self, seconds: f64) -> Self {
+        self.sampler.set_cpu_time(seconds);
+        for model in &mut self.models {
+            model.cpu_time_s = Some(seconds);
+        }
+        self
+    }
+
+    /// Searches in advance for the GPU that the next plan on [`Backend::Gpu`](super::Backend::Gpu) would search for. Drivers may
+    /// write to stderr during a search, and here a caller can silence them. The plan reports what was found.
+    pub async fn open_gpu(&mut self) {
+        self.sampler.open_gpu().await;
+    }
+
+    /// The models, in the order of their indices.
+    pub fn models(&self) -> &[LoadedModel] {
+        &self.models
+    }
+
+    /// A model by its index.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`] if there is no such model.
+    pub fn model(&self, model: usize) -> Result<&LoadedModel, Error> {
+        self.check_model(model)?;
+        Ok(&self.models[model])
+    }
+
+    /// The same, to set its weights or to search for its orientation.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`] if there is no such model.
+    pub fn model_mut(&mut self, model: usize) -> Result<&mut LoadedModel, Error> {
+        self.check_model(model)?;
+        Ok(&mut self.models[model])
+    }
+
+    /// Adds a model and returns its index.
+    #[cfg_attr(
+        target_arch = "wasm32",
+        expect(unused_mut, reason = "time is bounded elsewhere")
+    )]
+    pub fn add(&mut self, mut model: LoadedModel) -> usize {
+        #[cfg(not(target_arch = "wasm32"))]
+        {
+            model.cpu_time_s = self.sampler.cpu_time_s();
+        }
+        self.models.push(model);
+        self.models.len() - 1
+    }
+
+    /// Removes a model. Those after it move up.
+    ///
+    /// # Errors
+    /// [`Error::Arrange`].
+    pub fn remove(&mut self, model: usize) -> Result<LoadedModel, Error> {
+        self.check_model(model)?;
+        self.plates.clear();
+        if model < self.prepared.len() {
+            self.prepared.remove(model);
+        }
+        self.shapes.retain(|shape| shape.model != model);
+        for shape in &mut self.shapes {
+            shape.model -= usize::from(shape.model > model);
+        }
+        Ok(self.models.remove(model))
+    }
+
+    pub(super) fn check_model(&self, model: usize) -> Result<(), ArrangeError> {
+        let models = self.models.len();
+        if model < models {
+            Ok(())
+        } else {
+            Err(ArrangeError::NoModel {
+                model_number: model + 1,
+                models,
+            })
+        }
+    }
+
+    /// Arranges the copies, unless placements are given or there is only one, which stands in the middle, and plans the layers of each
+    /// plate. The error of a layer is the largest over the models that it reaches. After an error there is no plan; what was sampled
+    /// is kept.
+    ///
+    /// # Errors
+    /// Any [`Error`] of these stages; [`Error::Arrange`].
+    pub async fn plan(
+        &mut self,
+        options: &JobOptions,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<JobReport, Error> {
+        let mut last = std::mem::take(&mut self.plates);
+        let mut timings = Timings::default();
+        let layout = self.layout(options, &mut timings, progress)?;
+        // Old rays are freed before new ones are sampled.
+        last.retain(|plate| self.is_wanted(options, &layout, &plate.planned));
+        self.measure(options, &layout, &mut timings, progress)
+            .await?;
+
+        tell(progress, Stage::Plan, 0.0)?;
+        let plates = layout.plates();
+        let count = plates.len();
+        for (number, on_plate) in plates.enumerate() {
+            let clock = Instant::now();
+            let (models, offsets) = self.standing(options, &layout, on_plate);
+            let layering = layering_of(options, &layout, &models);
+            let known = last.iter_mut().chain(&mut self.plates);
+            let kept = known
+                .map(|it| (&it.planned, &it.offsets, &mut it.seen))
+                .find(|(planned, ..)| planned.is_of(&models, &layering));
+            let (planned, seen) = if let Some((planned, of, seen)) = kept {
+                let seen = if *of == offsets { seen.take() } else { None };
+                (Arc::clone(planned), seen)
+            } else {
+                #[cfg(not(target_arch = "wasm32"))]
+                if let Some(allowed_s) = self.sampler.cpu_time_s() {
+                    let bins = models[0].measured.shapes.bins();
+                    work::check_plan(bins, &layering, allowed_s)?;
+                }
+                let mut within =
+                    |fraction| progress(Stage::Plan, (number as f64 + fraction) / count as f64);
+                let planned = Planned::new(models, &layering, &mut within);
+                let planned = planned.map_err(|error| layout.shared.typeable(error))?;
+                timings.plan += ms_since(clock);
+                (Arc::new(planned), None)
+            };
+            timings.sum_up();
+            let number = [number, count];
+            let report = self.report_of_plate(options, &layout, number, &planned, &timings);
+            self.plates.push(Plate {
+                offsets,
+                planned,
+                output: layout.resolved.output.clone(),
+                report,
+                seen,
+            });
+        }
+        tell(progress, Stage::Plan, 1.0)?;
+        for model in &mut self.models {
+            model.load_ms = 0.0;
+        }
+        Ok(self.report())
+    }
+
+    /// Resolves the options, and finds where copies stand.
+    pub(super) fn layout(
+        &mut self,
+        options: &JobOptions,
+        timings: &mut Timings,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Layout, Error> {
+        options.check()?;
+        let is_alone = self.models.len() == 1
+            && options.of_model(0).copies == 1
+            && options.placements.is_empty();
+        let shared = if is_alone {
+            options.alone()
+        } else {
+            options.options.clone()
+        };
+        let resolved = shared.resolve()?;
+        check_own(options, &resolved)?;
+        check_prepared(&resolved, is_alone)?;
+        timings.load += self.models.iter().map(|model| model.load_ms).sum::<f64>();
+        if is_alone {
+            self.prepare(options, &resolved, timings, progress)?;
+            return Ok(Layout {
+                resolved,
+                shared,
+                is_alone,
+                sized: None,
+                places: vec![Place {
+                    item: 0,
+                    copy: 0,
+                    turns: 0,
+                    offset: [0, 0],
+                    plate: 0,
+                }],
+            });
+        }
+        let screen = screen_of(&resolved.sampling)?;
+        self.prepare(options, &resolved, timings, progress)?;
+        let clock = Instant::now();
+        let extents = self.extents(options, &resolved, &screen)?;
+        let places = if options.placements.is_empty() {
+            self.arranged(options, &resolved, &screen, &extents)?
+        } else {
+            let places = self.places(&screen, &options.placements)?;
+            let problems = self.problems_of(options, &resolved, &screen, &places)?;
+            if let Some(problem) = problems.into_iter().next() {
+                return Err(problem.into());
+            }
+            places
+        };
+        timings.load += ms_since(clock);
+        Ok(Layout {
+            resolved,
+            shared,
+            is_alone,
+            sized: Some((screen, extents)),
+            places,
+        })
+    }
+
+    /// The report of a plan of the plate `number` of `count`.
+    fn report_of_plate(
+        &self,
+        options: &JobOptions,
+        layout: &Layout,
+        [number, count]: [usize; 2],
+        planned: &Planned,
+        timings: &Timings,
+    ) -> Report {
+        let first = &self.models[planned.models[0].model];
+        let models = planned.models.iter();
+        let origin = Origin {
+            file: &first.facts.file,
+            options: &layout.shared,
+            painted: first.painted.as_deref(),
+            states_unit: layout.is_alone && first.facts.unit.is_some(),
+            warnings: models
+                .flat_map(|model| self.models[model.model].file_warnings(&layout.shared))
+                .collect(),
+        };
+        let output = &layout.resolved.output;
+        let mut report = report_of(planned, output, origin, timings.clone());
+        report.plate = layout.sized.as_ref().map(|(screen, extents)| {
+            let on_plate = layout.plates().nth(number).unwrap_or_default();
+            PlateReport {
+                plate: number,
+                plates: count,
+                models: self.shares(options, extents, planned),
+                placements: on_plate
+                    .iter()
+                    .map(|place| placement(screen, place))
+                    .collect(),
+            }
+        });
+        report
+    }
+
+    /// The report of the last plan.
+    pub(super) fn report(&self) -> JobReport {
+        let reports = self.plates.iter().map(|plate| &plate.report);
+        JobReport {
+            schema: SCHEMA,
+            print_time_s: reports.clone().map(|report| report.print_time_s).sum(),
+            resin_ml: reports.clone().map(|report| report.resin_ml).sum(),
+            plates: reports.cloned().collect(),
+        }
+    }
+
+    /// The models of a plate as its plan takes them, and the places of their copies.
+    fn standing(
+        &self,
+        options: &JobOptions,
+        layout: &Layout,
+        on_plate: &[Place],
+    ) -> (Vec<PlannedModel>, Vec<Vec<[i32; 2]>>) {
+        let of = |shape: &Shape| {
+            let measured = shape.measured.as_ref()?;
+            let copies = on_plate
+                .iter()
+                .filter(|place| place.item == shape.model && place.turns == shape.turns);
+            let offsets: Vec<_> = copies.map(|place| place.offset).collect();
+            let own = options.of_model(shape.model).tolerance;
+            let model = PlannedModel {
+                measured: Arc::clone(measured),
+                model: shape.model,
+                turns: shape.turns,
+                tolerance: own.filter(|_| !layout.is_alone),
+                copies: offsets.len(),
+            };
+            (!offsets.is_empty()).then_some((model, offsets))
+        };
+        self.shapes.iter().filter_map(of).unzip()
+    }
+
+    /// The models of a plate measured for these options, with its layering, to be planned in other ways than by [`Self::plan`]. The
+    /// last plan is kept.
+    pub(super) async fn measured_plate(
+        &mut self,
+        plate: usize,
+        options: &JobOptions,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(Vec<PlannedModel>, Layering), Error> {
+        let mut timings = Timings::default();
+        let layout = self.layout(options, &mut timings, progress)?;
+        let mut plates = layout.plates();
+        let count = plates.len();
+        let on_plate = plates.nth(plate).ok_or(ArrangeError::NoPlate {
+            plate_number: plate + 1,
+            plates: count,
+        })?;
+        self.measure(options, &layout, &mut timings, progress)
+            .await?;
+        let (models, _) = self.standing(options, &layout, on_plate);
+        let layering = layering_of(options, &layout, &models);
+        Ok((models, layering))
+    }
+}
+
+/// Refuses tolerances of models' own where the plan has none to compare them with.
+fn check_own(options: &JobOptions, resolved: &Resolved) -> Result<(), OptionsError> {
+    let has_own = options.models.iter().any(|model| model.tolerance.is_some());
+    if has_own && !matches!(resolved.layering.target, Target::Tolerance(_)) {
+        let Options {
+            max_layers,
+            max_time_s,
+            ..
+        } = options.options;
+        let other = match (max_layers, max_time_s) {
+            (Some(_), _) => "max_layers",
+            (_, Some(_)) => "max_time_s",
+            _ => "metric",
+        };
+        return Err(OptionsError::Contradictory {
+            option: "tolerance",
+            other,
+        });
+    }
+    Ok(())
+}
+
+/// Refuses what is placed by hand where there are several models or copies, each of which has a frame of its own.
+fn check_prepared(resolved: &Resolved, is_alone: bool) -> Result<(), OptionsError> {
+    let hollow = resolved.sampling.hollow.as_ref();
+    let option = match &resolved.sampling.supports {
+        _ if is_alone => return Ok(()),
+        Some(supports) if supports.points.is_some() => "points",
+        _ if hollow.is_some_and(|hollow| !hollow.drains.is_empty()) => "drains",
+        _ => return Ok(()),
+    };
+    Err(OptionsError::Contradictory {
+        option,
+        other: "models",
+    })
+}
+
+/// The layering of a plate: that of the options, with the height ranges of the models on it.
+fn layering_of(options: &JobOptions, layout: &Layout, models: &[PlannedModel]) -> Layering {
+    let mut layering = layout.resolved.layering.clone();
+    if layout.is_alone {
+        return layering;
+    }
+    let mut ranges = layering.limits.ranges.clone();
+    for model in models {
+        let height_mm = model.sampled().height_mm;
+        let own = options.of_model(model.model).ranges;
+        // A model has no say above its top.
+        let own = own.into_iter().filter(|range| range.from_mm < height_mm);
+        ranges.extend(own.map(|range| HeightRange {
+            to_mm: range.to_mm.min(height_mm),
+            ..range
+        }));
+    }
+    if ranges.len() > layering.limits.ranges.len() {
+        layering.limits.ranges = HeightRange::joined(&ranges);
+    }
+    layering
+}

@@ -1,0 +1,121 @@
+/** The models of the slicer, kept in step with those of a session. */
+import type { Loaded, LoadCall, Slicer, Watch } from "../../api/index.js";
+import type { Source } from "../../api/source.js";
+import type { ModelOptions } from "../../api/wire.js";
+import type { Entry } from "./plate.js";
+
+/** What the slicer has of an entry. */
+interface There {
+  readonly id: number;
+  own: string;
+  weights: Float32Array | null;
+}
+
+export type SyncCalls = Pick<Slicer, "add" | "load" | "positions" | "remove" | "setWeights" | "update">;
+
+export class Sync {
+  readonly #slicer: SyncCalls;
+  /** By the keys of entries, in the order of the slicer's models. */
+  readonly #there = new Map<number, There>();
+  readonly #positions = new Map<number, Promise<Float32Array>>();
+
+  constructor(slicer: SyncCalls) {
+    this.#slicer = slicer;
+  }
+
+  /** Reads a model in place of all others, or beside them. */
+  async read(source: Source, call: LoadCall, isAlone: boolean): Promise<Loaded> {
+    return isAlone ? this.#slicer.load(source, call) : this.#slicer.add(source, {}, call);
+  }
+
+  /** Notes that an entry is of a model that was read: the only one, or the last. */
+  note({ key, model: { id } }: Entry, isAlone: boolean, positions?: Float32Array): void {
+    if (isAlone) {
+      this.#there.clear();
+      this.#positions.clear();
+    }
+    this.#there.set(key, { id, own: "{}", weights: null });
+    if (positions !== undefined) this.#positions.set(key, Promise.resolve(positions));
+  }
+
+  /** The slicer's number of an entry's model; undefined before it is there. */
+  idOf(key: number | undefined): number | undefined {
+    return key === undefined ? undefined : this.#there.get(key)?.id;
+  }
+
+  /** Tells the slicer what has changed since the last call; null if nothing has. Its models are then those of the entries, in their order. */
+  bring(entries: readonly Entry[], watch: Watch): Promise<void> | null {
+    this.#leaveMisplaced(entries);
+    const changed = entries.filter((entry) => this.#hasChanged(entry, entries));
+    return changed.length === 0 ? null : this.#bring(changed, entries, watch);
+  }
+
+  /** Sets the weights of an entry's model, if it is there. */
+  async paint(key: number, weights: Float32Array | null, watch: Watch): Promise<void> {
+    const there = this.#there.get(key);
+    if (there === undefined) return;
+    there.weights = weights;
+    await this.#slicer.setWeights(weights, { ...watch, model: there.id });
+  }
+
+  #hasChanged(entry: Entry, entries: readonly Entry[]): boolean {
+    const there = this.#there.get(entry.key);
+    return there === undefined || there.weights !== entry.weights || there.own !== JSON.stringify(ownOf(entry, entries));
+  }
+
+  async #bring(changed: readonly Entry[], entries: readonly Entry[], watch: Watch): Promise<void> {
+    for (const entry of changed) {
+      const { key, model, weights } = entry;
+      if (!this.#there.has(key)) {
+        const { id } = await this.#slicer.add(model.file, {}, { ...watch, name: model.name, reading: model.reading });
+        this.#there.set(key, { id, own: "{}", weights: null });
+      }
+      const there = this.#there.get(key) as There;
+      const now = ownOf(entry, entries);
+      if (there.own !== JSON.stringify(now)) {
+        await this.#slicer.update(there.id, { copies: undefined, rotation: undefined, height_mm: undefined, ...now });
+        there.own = JSON.stringify(now);
+      }
+      if (there.weights !== weights) await this.paint(key, weights, watch);
+    }
+  }
+
+  /** Removes a model from the slicer. */
+  leave({ key }: Entry): void {
+    const there = this.#there.get(key);
+    this.#there.delete(key);
+    this.#positions.delete(key);
+    if (there !== undefined) this.#slicer.remove(there.id).catch(() => undefined);
+  }
+
+  /** The corners of all facets of a model, fetched once; none before it is there. */
+  positionsOf({ key }: Entry): Promise<Float32Array> {
+    let positions = this.#positions.get(key);
+    if (positions === undefined) {
+      const there = this.#there.get(key);
+      positions = there === undefined ? Promise.resolve(new Float32Array(0)) : this.#slicer.positions({ model: there.id });
+      positions.catch(() => this.#positions.delete(key));
+      if (there !== undefined) this.#positions.set(key, positions);
+    }
+    return positions;
+  }
+
+  /** Removes models that have others before them now, as after undo, and those that are gone: they are read again, in their order. */
+  #leaveMisplaced(entries: readonly Entry[]): void {
+    const there = [...this.#there.keys()];
+    const place = there.findIndex((key, i) => key !== entries[i]?.key);
+    if (place < 0) return;
+    for (const key of there.slice(place)) {
+      const { id } = this.#there.get(key) as There;
+      this.#there.delete(key);
+      this.#slicer.remove(id).catch(() => undefined);
+    }
+  }
+}
+
+/** What a model has of its own among these. The options of a single copy say its pose. */
+function ownOf({ copies, own }: Entry, entries: readonly Entry[]): ModelOptions {
+  if (entries.length === 1 && copies === 1) return {};
+  const { rotation, height_mm } = own;
+  return { copies, ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }) };
+}
