@@ -106,7 +106,7 @@ fn estimates(models: &[(String, Mesh)]) {
                 ..options.clone()
             };
             let report = pollster::block_on(slicer.plan(&posed, &mut silent)).expect("a plan");
-            let built = report.supported.as_ref().expect("supports");
+            let built = report.models[0].supported.as_ref().expect("supports");
             let points = built.points.len() + built.unreached.len();
             contacts.push([metrics.contact_mm2 / contact_mm2, points as f64]);
             volumes.push([metrics.support_ml, built.support_ml]);

@@ -113,9 +113,9 @@ fn printers_are_what_their_data_says() {
     );
     // Rays only over the model: 105 columns and 83 rows, two hits per ray.
     assert!(
-        (2 * 100 * 80..2 * 110 * 90).contains(&report.hits),
+        (2 * 100 * 80..2 * 110 * 90).contains(&report.models[0].hits),
         "{}",
-        report.hits
+        report.models[0].hits
     );
     assert_near(report.resin_ml, 0.008, 2e-4);
     let code = |result: Result<Report, Error>| result.unwrap_err().code();

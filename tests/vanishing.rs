@@ -61,14 +61,17 @@ fn plan(slicer: &mut Slicer, options: &Options) -> Report {
 
 /// What compensation erases: layers, bottom of the lowest, and the largest area.
 fn erased(report: &Report) -> Option<(usize, f64, f64)> {
-    report.warnings.iter().find_map(|warning| match *warning {
-        Warning::ErasedParts {
-            layers,
-            from_mm,
-            area_mm2,
-        } => Some((layers, from_mm, area_mm2)),
-        _ => None,
-    })
+    report
+        .all_warnings()
+        .iter()
+        .find_map(|warning| match *warning {
+            Warning::ErasedParts {
+                layers,
+                from_mm,
+                area_mm2,
+            } => Some((layers, from_mm, area_mm2)),
+            _ => None,
+        })
 }
 
 /// Number of lit pixels of a layer.
@@ -226,14 +229,17 @@ fn with_cavity(from: [f32; 3], to: [f32; 3]) -> solids::Triangles {
 }
 
 fn closed(report: &Report) -> Option<(usize, f64, [f64; 3])> {
-    report.warnings.iter().find_map(|warning| match *warning {
-        Warning::ClosedCavities {
-            cavities,
-            volume_mm3,
-            at_mm,
-        } => Some((cavities, volume_mm3, at_mm)),
-        _ => None,
-    })
+    report
+        .all_warnings()
+        .iter()
+        .find_map(|warning| match *warning {
+            Warning::ClosedCavities {
+                cavities,
+                volume_mm3,
+                at_mm,
+            } => Some((cavities, volume_mm3, at_mm)),
+            _ => None,
+        })
 }
 
 fn hollowed(hollowing: Hollowing) -> Options {
@@ -262,7 +268,7 @@ fn a_closed_cavity_is_joined_to_the_void() {
     let whole = plan(&mut cube, &hollowed(automatic()));
     let mut model = load(&with_cavity([11.0; 3], [19.0; 3]));
     let report = plan(&mut model, &hollowed(automatic()));
-    assert_eq!(report.warnings, []);
+    assert_eq!(report.all_warnings(), []);
     assert_near(report.resin_ml, whole.resin_ml, 1e-2);
     assert_eq!(shut(&mut model), 0);
     // Nearer to the outside than the walls are thick, too, where the void reaches it.
@@ -318,8 +324,8 @@ fn holes_lead_into_a_cavity_without_a_void() {
         of(Vec::new(), Some(AutoDrain::default())),
     ] {
         let report = plan(&mut model, &options);
-        assert_eq!(report.warnings, []);
-        let void = report.hollowed.as_ref().unwrap();
+        assert_eq!(report.all_warnings(), []);
+        let void = report.models[0].hollowed.as_ref().unwrap();
         assert_eq!(void.drains.len(), 1);
         // The walls lose the hole alone.
         let hole_mm3 = 16.0 * 1.5f64.powi(2) * (std::f64::consts::TAU / 32.0).sin() * 5.0;
@@ -329,7 +335,7 @@ fn holes_lead_into_a_cavity_without_a_void() {
     // There is nothing to drain in a model without a cavity.
     let mut cube = load(&boxes(&[[[0.0; 3], [30.0; 3]]]));
     let report = plan(&mut cube, &of(vec![hole], None));
-    assert_eq!(report.warnings, [Warning::NothingToDrain]);
+    assert_eq!(report.all_warnings(), [Warning::NothingToDrain]);
 }
 
 #[test]
@@ -337,10 +343,13 @@ fn a_body_that_no_ray_meets_is_warned_of() {
     let sheet = |x: f32, width: f32| [[x, 0.0, 0.0], [x + width, 10.0, 4.0]];
     let missed = |corners: &[[[f32; 3]; 2]]| {
         let report = plan(&mut load(&boxes(corners)), &options(Growth::default()));
-        report.warnings.iter().find_map(|warning| match *warning {
-            Warning::MissedBodies { bodies, at_mm } => Some((bodies, at_mm)),
-            _ => None,
-        })
+        report
+            .all_warnings()
+            .iter()
+            .find_map(|warning| match *warning {
+                Warning::MissedBodies { bodies, at_mm } => Some((bodies, at_mm)),
+                _ => None,
+            })
     };
     let block = [[0.0; 3], [10.0, 10.0, 4.0]];
     // Pixels of 0.1 mm have their centres 0.05 mm from whole tenths.

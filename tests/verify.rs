@@ -2,7 +2,9 @@
 //! rotations.
 
 use crate::common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::{Backend, Claim, Options, Planner, Report, Slicer, VerifyError};
+use cusp_slicer::job::{
+    Backend, Claim, Job, LoadedModel, Options, Planner, Report, Slicer, VerifyError,
+};
 use cusp_slicer::profile::Metric;
 use serde_json::{Value, json};
 
@@ -24,10 +26,11 @@ fn planned(triangles: &solids::Triangles, options: &Options) -> (Slicer, Report)
 
 /// Plans again with the submitted options, and compares.
 fn verify(sent: &Value, triangles: &solids::Triangles) -> Result<(), VerifyError> {
-    let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
-    let claim = Claim::read(&sent.to_string(), slicer.model_file())?;
-    let made = pollster::block_on(slicer.plan(claim.options(), &mut quiet)).unwrap();
-    claim.check(made)
+    let mut job = Job::new(vec![LoadedModel::read(&binary_stl(triangles)).unwrap()]);
+    let file = job.models()[0].model_file().clone();
+    let claims = Claim::read(&sent.to_string(), &[&file])?;
+    let made = pollster::block_on(claims[0].plan_again(&mut job, &mut quiet)).unwrap();
+    claims[0].check(made)
 }
 
 #[test]

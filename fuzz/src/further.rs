@@ -213,7 +213,8 @@ fn check_print_file(slicer: &mut Slicer, report: &Report, options: &Options) {
 
 fn check_claim(report: &Report) {
     let text = serde_json::to_string(report).expect("a report can be written");
-    let claim = Claim::read(&text, &report.model).expect("a plan can be read");
+    let claims = Claim::read(&text, &[&report.models[0].file]).expect("a plan can be read");
+    let claim = &claims[0];
     assert_eq!(claim.options(), &report.options);
     match claim.check(report) {
         Ok(()) | Err(VerifyError::ToleranceExceeded { .. }) => {}

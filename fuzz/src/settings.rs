@@ -103,13 +103,16 @@ pub fn plan(bytes: &[u8]) {
         return;
     };
     alone(|| {
-        match Claim::read(text, &MODEL) {
-            Ok(claim) => {
-                let _ = claim.options().print_file();
-                let _ = claim.check(&MADE).map_err(|error| error.to_string());
+        for models in [&[&MODEL][..], &[&MODEL, &MODEL]] {
+            match Claim::read(text, models) {
+                Ok(claims) => {
+                    for claim in claims {
+                        let _ = claim.options().print_file();
+                        let _ = claim.check(&MADE).map_err(|error| error.to_string());
+                    }
+                }
+                Err(error) => drop(error.to_string()),
             }
-            Err(error) => drop(error.to_string()),
         }
-        let _ = Claim::read_plates(text, &[&MODEL, &MODEL]).map_err(|error| error.to_string());
     });
 }

@@ -10,8 +10,9 @@ use crate::model::ModelFile;
 /// What a submitted plan says of its plate. Unlike a report it says how copies stand, and nothing that follows from it.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct ClaimedPlate {
+    pub(super) options: Options,
     plate: usize,
-    plates: usize,
+    plate_count: usize,
     models: Vec<ClaimedModel>,
     placements: Vec<Placement>,
 }
@@ -29,8 +30,8 @@ impl ClaimedPlate {
         self.models.iter().map(|model| (&model.file, model.model))
     }
 
-    /// The job that has only this plate, with the options that the plan claims.
-    fn job(&self, options: &Options) -> JobOptions {
+    /// The job that has only this plate.
+    fn job(&self) -> JobOptions {
         let count = self.models.iter().map(|model| model.model + 1).max();
         let absent = ModelOptions {
             copies: 0,
@@ -45,7 +46,7 @@ impl ClaimedPlate {
             };
         }
         JobOptions {
-            options: options.clone(),
+            options: self.options.clone(),
             models,
             arranging: Arranging::default(),
             placements: self
@@ -58,27 +59,20 @@ impl ClaimedPlate {
 }
 
 impl Job {
-    /// Plans a submitted plate again, as the only one, and numbers it as it was. Without a plate it is the only model, alone.
+    /// Plans a submitted plate again, as the only one, and numbers it as it was.
     ///
     /// # Errors
     /// Those of [`Job::plan`].
     pub(super) async fn plan_claimed(
         &mut self,
-        claimed: Option<&ClaimedPlate>,
-        options: &Options,
+        claimed: &ClaimedPlate,
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
-        let job = match claimed {
-            Some(claimed) => claimed.job(options),
-            None => JobOptions::of(options.clone()),
-        };
-        self.plan(&job, progress).await?;
+        self.plan(&claimed.job(), progress).await?;
         let report = &mut self.plate_mut(0)?.report;
-        if let (Some(plate), Some(claimed)) = (&mut report.plate, claimed) {
-            (plate.plate, plate.plates) = (claimed.plate, claimed.plates);
-            for place in &mut plate.placements {
-                place.plate = claimed.plate;
-            }
+        (report.plate, report.plate_count) = (claimed.plate, claimed.plate_count);
+        for place in &mut report.placements {
+            place.plate = claimed.plate;
         }
         Ok(report)
     }

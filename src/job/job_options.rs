@@ -62,7 +62,18 @@ pub struct Placement {
     pub turn_deg: u32,
 }
 
-/// Several models in one job. All share the options.
+impl Placement {
+    /// A single copy in the middle of its plate.
+    pub const MIDDLE: Self = Self {
+        model: 0,
+        plate: 0,
+        x_mm: 0.0,
+        y_mm: 0.0,
+        turn_deg: 0,
+    };
+}
+
+/// Models × copies in one job. All share the options.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

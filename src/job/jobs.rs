@@ -16,13 +16,14 @@ use super::stage::{Stage, StageProgress, ms_since, report as tell};
 #[cfg(not(target_arch = "wasm32"))]
 use super::work;
 use super::{
-    Error, JobOptions, JobReport, LoadedModel, Options, OptionsError, PlateReport, Report, Timings,
+    Error, JobOptions, JobReport, LoadedModel, ModelOptions, Options, OptionsError, Placement,
+    Report, Timings,
 };
 use crate::arrange::{ArrangeError, Place, Screen};
 use crate::ldi::gpu::Gpu;
 use crate::plan::HeightRange;
 
-use super::places::{Extent, placement, screen_of};
+use super::places::{placement, screen_of};
 
 /// Models that are printed together, or one alone. A change of options repeats only the stages that depend on it.
 #[derive(Debug, Default)]
@@ -41,16 +42,24 @@ pub struct Job {
 pub(super) struct Layout {
     pub resolved: Resolved,
     /// The options that the report repeats.
-    shared: Options,
+    pub shared: Options,
     /// A single copy of a single model, in the middle.
     is_alone: bool,
-    /// The screen and the extents of models, unless a model is alone.
-    sized: Option<(Screen, Vec<Extent>)>,
+    /// Absent for a model alone, which needs none.
+    screen: Option<Screen>,
     /// Ascending by plate.
     places: Vec<Place>,
 }
 
 impl Layout {
+    /// What a model has of its own. Alone, it shares its options with none.
+    pub fn own(&self, options: &JobOptions, model: usize) -> ModelOptions {
+        if self.is_alone {
+            return ModelOptions::default();
+        }
+        options.of_model(model)
+    }
+
     pub fn places(&self) -> &[Place] {
         &self.places
     }
@@ -220,7 +229,7 @@ impl Job {
             };
             timings.sum_up();
             let number = [number, count];
-            let report = self.report_of_plate(options, &layout, number, &planned, &timings);
+            let report = self.report_of_plate(options, &layout, number, &planned, &timings)?;
             self.plates.push(Plate {
                 offsets,
                 planned,
@@ -246,7 +255,7 @@ impl Job {
         options.check()?;
         let is_alone = self.models.len() == 1
             && options.of_model(0).copies == 1
-            && options.placements.is_empty();
+            && matches!(&options.placements[..], [] | [Placement::MIDDLE]);
         let shared = if is_alone {
             options.alone()
         } else {
@@ -262,7 +271,7 @@ impl Job {
                 resolved,
                 shared,
                 is_alone,
-                sized: None,
+                screen: None,
                 places: vec![Place {
                     item: 0,
                     copy: 0,
@@ -275,8 +284,8 @@ impl Job {
         let screen = screen_of(&resolved.sampling)?;
         self.prepare(options, &resolved, timings, progress)?;
         let clock = Instant::now();
-        let extents = self.extents(options, &resolved, &screen)?;
         let places = if options.placements.is_empty() {
+            let extents = self.extents(options, &resolved, &screen)?;
             self.arranged(options, &resolved, &screen, &extents)?
         } else {
             let places = self.places(&screen, &options.placements)?;
@@ -291,46 +300,38 @@ impl Job {
             resolved,
             shared,
             is_alone,
-            sized: Some((screen, extents)),
+            screen: Some(screen),
             places,
         })
     }
 
-    /// The report of a plan of the plate `number` of `count`.
+    /// The report of a plan of the plate `plate` of `plate_count`.
     fn report_of_plate(
         &self,
         options: &JobOptions,
         layout: &Layout,
-        [number, count]: [usize; 2],
+        [plate, plate_count]: [usize; 2],
         planned: &Planned,
         timings: &Timings,
-    ) -> Report {
+    ) -> Result<Report, Error> {
+        let on_plate = layout.plates().nth(plate).unwrap_or_default();
         let first = &self.models[planned.models[0].model];
-        let models = planned.models.iter();
+        let states_unit = layout.is_alone && first.facts.unit.is_some();
         let origin = Origin {
-            file: &first.facts.file,
-            options: &layout.shared,
-            painted: first.painted.as_deref(),
-            states_unit: layout.is_alone && first.facts.unit.is_some(),
-            warnings: models
-                .flat_map(|model| self.models[model.model].file_warnings(&layout.shared))
+            options: Options {
+                unit: layout.shared.unit.filter(|_| !states_unit),
+                ..layout.shared.as_reported()
+            },
+            plate,
+            plate_count,
+            models: self.shares(options, layout, planned)?,
+            placements: on_plate
+                .iter()
+                .map(|place| placement(layout.screen.as_ref(), place))
                 .collect(),
         };
         let output = &layout.resolved.output;
-        let mut report = report_of(planned, output, origin, timings.clone());
-        report.plate = layout.sized.as_ref().map(|(screen, extents)| {
-            let on_plate = layout.plates().nth(number).unwrap_or_default();
-            PlateReport {
-                plate: number,
-                plates: count,
-                models: self.shares(options, extents, planned),
-                placements: on_plate
-                    .iter()
-                    .map(|place| placement(screen, place))
-                    .collect(),
-            }
-        });
-        report
+        Ok(report_of(planned, output, origin, timings.clone()))
     }
 
     /// The report of the last plan.

@@ -54,7 +54,7 @@ pub use orient::OrientationReport;
 pub use prepared::{Hollowed, Supported};
 pub use report::*;
 pub use resolve::BIN_MM;
-pub use shares::{JobReport, PlateModelReport, PlateReport};
+pub use shares::{JobReport, ModelReport};
 pub use slicer::Slicer;
 pub use stage::{Stage, StageProgress};
 pub use verify::*;

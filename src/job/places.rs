@@ -3,6 +3,7 @@
 use std::sync::Arc;
 
 use super::parts::{Raster, Resolved, Sampling};
+use super::planned::PlannedModel;
 use super::prepared::Prepared;
 use super::{Error, Job, JobOptions, Placement, Timings};
 use crate::arrange::{
@@ -19,12 +20,10 @@ pub(super) struct Extent {
     pub size_mm: [f64; 3],
     /// Its shadow on the plate, in cells.
     pub shadow: Outline,
-    /// The true area of the shadow.
-    pub shadow_mm2: f64,
 }
 
 /// A model in its pose before turns.
-struct Posed<'a> {
+pub(super) struct Posed<'a> {
     mesh: &'a Mesh,
     pose: Pose,
     /// With its supports, if it has some.
@@ -40,18 +39,33 @@ impl Posed<'_> {
         })
     }
 
+    /// The true area of its shadow.
+    pub fn shadow_mm2(&self) -> Result<f64, Error> {
+        self.seen(0, shadow_mm2)
+    }
+
+    /// Its extent in x, y and z, which one of its turns knows if it is none.
+    pub fn size_mm(&self, turned: &[PlannedModel]) -> Result<[f64; 3], Error> {
+        let size_of = |mesh: &Mesh| self.sized(mesh);
+        match turned.iter().find(|it| it.turns == 0) {
+            Some(upright) => Ok(size_of(upright.sampled().mesh())),
+            None => self.seen(0, size_of),
+        }
+    }
+
+    fn sized(&self, mesh: &Mesh) -> [f64; 3] {
+        let size = mesh.bounds().size();
+        [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)]
+    }
+
     fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
         self.seen(turns, |mesh| Outline::of(mesh, screen))
     }
 
     fn extent(&self, screen: &Screen) -> Result<Extent, Error> {
-        self.seen(0, |mesh| {
-            let size = mesh.bounds().size();
-            Extent {
-                size_mm: [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)],
-                shadow: Outline::of(mesh, screen),
-                shadow_mm2: shadow_mm2(mesh),
-            }
+        self.seen(0, |mesh| Extent {
+            size_mm: self.sized(mesh),
+            shadow: Outline::of(mesh, screen),
         })
     }
 }
@@ -70,7 +84,7 @@ impl Job {
         let places = self.arranged(options, &resolved, &screen, &extents)?;
         Ok(places
             .iter()
-            .map(|place| placement(&screen, place))
+            .map(|place| placement(Some(&screen), place))
             .collect())
     }
 
@@ -125,7 +139,12 @@ impl Job {
         self.prepare(options, resolved, &mut Timings::default(), &mut silent)
     }
 
-    fn posed(&self, options: &JobOptions, resolved: &Resolved, model: usize) -> Posed<'_> {
+    pub(super) fn posed(
+        &self,
+        options: &JobOptions,
+        resolved: &Resolved,
+        model: usize,
+    ) -> Posed<'_> {
         Posed {
             mesh: &self.models[model].mesh,
             pose: self.pose_of(options, resolved, model),
@@ -247,8 +266,10 @@ pub(super) fn screen_of(sampling: &Sampling) -> Result<Screen, ArrangeError> {
     }
 }
 
-pub(super) fn placement(screen: &Screen, place: &Place) -> Placement {
-    let [x_mm, y_mm] = screen.offset_mm(place.offset);
+/// Without a screen, a place is in the middle.
+pub(super) fn placement(screen: Option<&Screen>, place: &Place) -> Placement {
+    let offset_mm = screen.map(|screen| screen.offset_mm(place.offset));
+    let [x_mm, y_mm] = offset_mm.unwrap_or_default();
     Placement {
         model: place.item,
         plate: place.plate,

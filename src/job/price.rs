@@ -4,17 +4,9 @@ use super::{JobReport, Report};
 use crate::price::PriceItem;
 
 impl Report {
-    /// What `copies` of this plan need. Each takes the whole print time; copies that are printed together are priced by their
-    /// plate's report, in which each has its share, and `copies` is how often the plate is printed.
+    /// What `copies` prints of this plate need: each copy has its share of the time.
     pub fn price_items(&self, copies: usize) -> Vec<PriceItem> {
-        let Some(plate) = &self.plate else {
-            return vec![PriceItem {
-                copies,
-                resin_ml: self.resin_ml,
-                print_time_s: self.print_time_s,
-            }];
-        };
-        let models = plate.models.iter().map(|model| PriceItem {
+        let models = self.models.iter().map(|model| PriceItem {
             copies: model.copies.saturating_mul(copies),
             resin_ml: model.resin_ml,
             print_time_s: model.print_time_s,

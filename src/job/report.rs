@@ -6,16 +6,14 @@ use serde_json::value::to_raw_value;
 use tsify::Tsify;
 
 use super::parts::{Filament, Output};
-use super::planned::{Planned, PlannedModel};
-use super::prepared::{Hollowed, Supported};
-use super::sampled::Sampled;
-use super::{Minimize, Options, PlateReport};
+use super::planned::Planned;
+use super::{Minimize, ModelReport, Options, Placement};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
 use crate::format::Format;
 use crate::ldi::Solid;
 use crate::mask::black_layers;
-use crate::model::{Mesh, ModelFile, ModelUnit, weights};
+use crate::model::{Mesh, ModelUnit};
 use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
 use crate::printer::{PRINTERS, Printer, Refusal, VariableLayers, are_equal, check_thicknesses};
@@ -154,7 +152,7 @@ pub(super) fn odd_size(mesh: &Mesh) -> Option<Warning> {
 }
 
 /// The schema version of reports. It increases when a name or a meaning changes, not when something is added.
-pub const SCHEMA: u32 = 2;
+pub const SCHEMA: u32 = 3;
 
 /// Keys of a report that depend on the machine, not on the plan.
 pub const OF_THE_MACHINE: [&str; 4] = ["timings_ms", "backend", "adapter", "gpu_method"];
@@ -403,19 +401,23 @@ pub struct Preview {
     pub layer_range_mm: [f64; 2],
 }
 
-/// A plan and how it was made: what `--json` prints and the page shows.
+/// The plan of a plate and how it was made: what `--json` prints for each plate, and the page shows.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify), tsify(missing_as_null))]
 pub struct Report {
     /// The schema version of this object: [`SCHEMA`].
     pub schema: u32,
-    /// The file that the model was read from.
-    pub model: ModelFile,
-    /// The options. With these, the same file gives the same plan again.
+    /// The options of the job. With these and those of its models, the same files give the same plan again.
     pub options: Options,
-    /// CRC-32 of the user's weights of facets, as little-endian single-precision numbers, if any.
-    pub weights_crc32: Option<u32>,
+    /// The plate, from 0.
+    pub plate: usize,
+    /// Number of plates of the job.
+    pub plate_count: usize,
+    /// The models on this plate.
+    pub models: Vec<ModelReport>,
+    /// Where each copy stands. A single copy that nobody has placed stands in the middle.
+    pub placements: Vec<Placement>,
     /// Number of layers.
     pub layers: usize,
     /// Height of the model.
@@ -430,14 +432,8 @@ pub struct Report {
     pub overhead_s: f64,
     /// The resin, which determines both.
     pub resin: Resin,
-    /// Volume of resin in the model.
+    /// Volume of resin in all copies.
     pub resin_ml: f64,
-    /// The void that was left out of it, if the model was hollowed.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub hollowed: Option<Hollowed>,
-    /// What holds it, if the model is supported.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub supported: Option<Supported>,
     /// The printer, if one was named.
     pub printer: Option<String>,
     /// Heights of the planes at flats and sharp changes.
@@ -476,26 +472,25 @@ pub struct Report {
     pub bin_mm: f64,
     /// Minimum and maximum layer thickness of a plan, in whole motor steps if there is one.
     pub layer_range_mm: [f64; 2],
-    /// Number of facets that were sampled.
-    pub facets: usize,
-    /// Number of hits of the LDI.
-    pub hits: usize,
     /// Uniform layers for comparison.
     pub uniform: UniformReport,
     /// The pixels of the masks.
     pub mask: MaskReport,
     /// The format in which the plan is exported.
     pub print_file: PrintFileReport,
-    /// The plate, if several models or copies are printed together. `model` is then the first of them.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub plate: Option<PlateReport>,
-    /// Warnings.
+    /// Warnings about the plate. Those about a model are with the model.
     pub warnings: Vec<Warning>,
     /// Times of the stages.
     pub timings_ms: Timings,
 }
 
 impl Report {
+    /// The warnings about the models, then those about the plate.
+    pub fn all_warnings(&self) -> Vec<Warning> {
+        let of_models = self.models.iter().flat_map(|model| &model.warnings);
+        of_models.chain(&self.warnings).cloned().collect()
+    }
+
     /// The report without timings and backend, which depend on the machine: the same plan gives the same manifest
     /// everywhere.
     ///
@@ -503,69 +498,38 @@ impl Report {
     /// [`serde_json::Error`], which no report causes.
     pub(crate) fn manifest(&self) -> Result<Manifest, serde_json::Error> {
         let mut manifest: Manifest = serde_json::from_str(&serde_json::to_string(self)?)?;
-        let warnings = self.warnings.iter();
-        let warnings = warnings.filter(|warning| !warning.is_of_the_machine());
-        let warnings = to_raw_value(&warnings.collect::<Vec<_>>())?;
+        let lasting = |warnings: &[Warning]| -> Vec<Warning> {
+            let warnings = warnings.iter();
+            let warnings = warnings.filter(|warning| !warning.is_of_the_machine());
+            warnings.cloned().collect()
+        };
+        let models = self.models.iter().map(|model| ModelReport {
+            warnings: lasting(&model.warnings),
+            ..model.clone()
+        });
+        let models = to_raw_value(&models.collect::<Vec<_>>())?;
+        manifest.insert("models".to_owned(), models);
+        let warnings = to_raw_value(&lasting(&self.warnings))?;
         manifest.insert("warnings".to_owned(), warnings);
         manifest.retain(|key, _| !OF_THE_MACHINE.contains(&&**key));
         Ok(manifest)
     }
 }
 
-/// What a plan comes from, besides its stages.
-pub(super) struct Origin<'a> {
-    pub file: &'a ModelFile,
-    pub options: &'a Options,
-    pub painted: Option<&'a [f32]>,
-    /// Whether the file states its unit, so that the options' does not count.
-    pub states_unit: bool,
-    /// What to know about the file.
-    pub warnings: Vec<Warning>,
-}
-
-/// The voids of all models and copies.
-fn hollowed(models: &[PlannedModel]) -> Option<Hollowed> {
-    let voids = models.iter().filter_map(|model| {
-        let void = model.sampled().prepared.hollowed.as_ref()?;
-        Some(Hollowed {
-            void_ml: void.void_ml * model.copies as f64,
-            ..void.clone()
-        })
-    });
-    voids.reduce(|a, b| Hollowed {
-        void_ml: a.void_ml + b.void_ml,
-        // Each model has a frame of its own.
-        drains: Vec::new(),
-        resolution_mm: a.resolution_mm.max(b.resolution_mm),
-    })
-}
-
-/// What holds all models and copies.
-fn supported(models: &[PlannedModel]) -> Option<Supported> {
-    let supports = models.iter().filter_map(|model| {
-        let supports = model.sampled().supported.as_ref()?;
-        Some(Supported {
-            support_ml: supports.support_ml * model.copies as f64,
-            on_model: supports.on_model * model.copies,
-            ..supports.clone()
-        })
-    });
-    supports.reduce(|a, b| Supported {
-        support_ml: a.support_ml + b.support_ml,
-        on_model: a.on_model + b.on_model,
-        // Each model has a frame of its own.
-        points: Vec::new(),
-        unreached: Vec::new(),
-        joints_mm: Vec::new(),
-        ..a
-    })
+/// The plate of a plan, besides its stages.
+pub(super) struct Origin {
+    pub options: Options,
+    pub plate: usize,
+    pub plate_count: usize,
+    pub models: Vec<ModelReport>,
+    pub placements: Vec<Placement>,
 }
 
 /// The report of a plan that is exported as `output`.
 pub(super) fn report_of(
     planned: &Planned,
     output: &Output,
-    origin: Origin<'_>,
+    origin: Origin,
     timings_ms: Timings,
 ) -> Report {
     let Planned {
@@ -576,18 +540,13 @@ pub(super) fn report_of(
     } = planned;
     let sampled = &planned.first().of;
     let Origin {
-        file,
         options,
-        painted,
-        states_unit,
-        mut warnings,
+        plate,
+        plate_count,
+        models: on_plate,
+        placements,
     } = origin;
-    let of_models = models.iter().flat_map(|model| &model.sampled().warnings);
-    for warning in of_models.chain(&findings.warnings) {
-        if !warnings.contains(warning) {
-            warnings.push(warning.clone());
-        }
-    }
+    let mut warnings = findings.warnings.clone();
     let solids = models
         .iter()
         .map(|model| (&model.sampled().survey.solid, model.copies));
@@ -610,12 +569,11 @@ pub(super) fn report_of(
     }
     Report {
         schema: SCHEMA,
-        model: file.clone(),
-        options: Options {
-            unit: options.unit.filter(|_| !states_unit),
-            ..options.as_reported()
-        },
-        weights_crc32: painted.map(weights::crc_of),
+        options,
+        plate,
+        plate_count,
+        models: on_plate,
+        placements,
         layers: plan.layers(),
         height_mm: models
             .iter()
@@ -627,8 +585,6 @@ pub(super) fn report_of(
         resin: layering.resin.clone(),
         thickness_mm,
         resin_ml: solid.volume_mm3 / 1e3,
-        hollowed: hollowed(models),
-        supported: supported(models),
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
         metric: layering.metric,
@@ -648,8 +604,6 @@ pub(super) fn report_of(
         bins: plan.bins.count,
         bin_mm: plan.bins.size_mm,
         layer_range_mm: layering.layer_range_mm(plan.bins),
-        facets: sum(models, |sampled| sampled.mesh().surface_facets),
-        hits: sum(models, |sampled| sampled.survey.hits as usize),
         uniform: findings.uniform.clone(),
         mask: MaskReport {
             width: sampled.grid.width,
@@ -660,14 +614,9 @@ pub(super) fn report_of(
             is_mirrored: output.is_mirrored,
         },
         print_file: PrintFileReport::of(output),
-        plate: None,
         warnings,
         timings_ms,
     }
-}
-
-fn sum(models: &[PlannedModel], of: impl Fn(&Sampled) -> usize) -> usize {
-    models.iter().map(|model| of(model.sampled())).sum()
 }
 
 /// The warning about layers of several thicknesses on this printer, or in its file.

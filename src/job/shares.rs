@@ -2,35 +2,21 @@
 
 use serde::Serialize;
 
-use super::places::Extent;
+use super::jobs::Layout;
 use super::planned::{Planned, PlannedModel};
 use super::planning::Planning;
-use super::{Job, JobOptions, ModelOptions, Placement, Report};
+use super::prepared::{Hollowed, Supported};
+use super::{Error, Job, JobOptions, ModelOptions, Report};
 use crate::model::ModelFile;
 use crate::plan::Plan;
 use crate::resin::Resin;
 use crate::warning::Warning;
 
-/// The models of a plate.
-#[derive(Debug, Clone, PartialEq, Serialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-pub struct PlateReport {
-    /// The plate, from 0.
-    pub plate: usize,
-    /// Number of plates of the job.
-    pub plates: usize,
-    /// The models on this plate.
-    pub models: Vec<PlateModelReport>,
-    /// Where each copy stands.
-    pub placements: Vec<Placement>,
-}
-
 /// A model on a plate.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-pub struct PlateModelReport {
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
+pub struct ModelReport {
     /// The model, by its index in the job.
     pub model: usize,
     /// Its file.
@@ -43,6 +29,10 @@ pub struct PlateModelReport {
     pub copies: usize,
     /// Extent of the model in x, y and z, before turns about z.
     pub size_mm: [f64; 3],
+    /// Number of facets of its surface.
+    pub facets: usize,
+    /// Number of hits of rays with it, in all turns in which it stands.
+    pub hits: usize,
     /// Layers that reach it.
     pub layers: usize,
     /// Volume of resin in a copy.
@@ -54,54 +44,88 @@ pub struct PlateModelReport {
     pub max_error: f64,
     /// The largest distance from the print to this model.
     pub max_deviation_mm: f64,
+    /// The void that was left out of a copy, if it was hollowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hollowed: Option<Hollowed>,
+    /// What holds a copy, if it is supported.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supported: Option<Supported>,
     /// Warnings about this model.
     pub warnings: Vec<Warning>,
 }
 
 impl Job {
     /// The models of a plate, each with its share of the plan.
+    ///
+    /// # Errors
+    /// [`Error::Mesh`].
     pub(super) fn shares(
         &self,
         options: &JobOptions,
-        extents: &[Extent],
+        layout: &Layout,
         planned: &Planned,
-    ) -> Vec<PlateModelReport> {
+    ) -> Result<Vec<ModelReport>, Error> {
+        let by_model = || planned.models.chunk_by(|a, b| a.model == b.model);
+        let is_shared = by_model().count() > 1;
         let mut models = Vec::new();
         let mut sharers = Vec::new();
-        for turned in planned.models.chunk_by(|a, b| a.model == b.model) {
+        for turned in by_model() {
             let model = turned[0].model;
+            let loaded = &self.models[model];
             let copies = turned.iter().map(|it| it.copies).sum();
             let sampled = turned[0].sampled();
+            let prepared = match &self.prepared[model] {
+                Some(upright) => upright,
+                None => &sampled.prepared,
+            };
+            let posed = self.posed(options, &layout.resolved, model);
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
-                shadow_mm2: extents[model].shadow_mm2,
+                shadow_mm2: if is_shared { posed.shadow_mm2()? } else { 1.0 },
                 copies,
             });
             let parts = turned.iter().map(PlannedModel::part_alone);
             let planning = Planning::new(parts.collect(), &planned.layering);
-            models.push(PlateModelReport {
+            let mut warnings = loaded.file_warnings(&layout.shared);
+            for warning in &sampled.warnings {
+                if !warnings.contains(warning) {
+                    warnings.push(warning.clone());
+                }
+            }
+            let supports = prepared.supports.as_ref();
+            models.push(ModelReport {
                 model,
-                file: self.models[model].facts.file.clone(),
+                file: loaded.facts.file.clone(),
                 options: ModelOptions {
                     copies,
-                    ..options.of_model(model)
+                    ..layout.own(options, model)
                 },
-                weights_crc32: self.models[model].weights_crc32(),
+                weights_crc32: loaded.weights_crc32(),
                 copies,
-                size_mm: extents[model].size_mm,
+                size_mm: posed.size_mm(turned)?,
+                facets: sampled.mesh().surface_facets,
+                hits: turned
+                    .iter()
+                    .map(|it| it.sampled().survey.hits as usize)
+                    .sum(),
                 layers: layers_reaching(&planned.plan, sampled.height_mm),
                 resin_ml: sampled.survey.solid.volume_mm3 / 1e3,
                 print_time_s: 0.0,
                 max_error: planning.max_error(&planned.plan),
                 max_deviation_mm: planning.max_deviation_mm(&planned.plan),
-                warnings: sampled.warnings.clone(),
+                hollowed: prepared.hollowed.clone(),
+                supported: supports.map(|it| Supported::of(it, sampled.survey.support_mm3)),
+                warnings,
             });
         }
-        let shares_s = time_shares_s(&planned.plan, &planned.layering.resin, &sharers);
+        let shares_s = match &sharers[..] {
+            [alone] => vec![planned.findings.print_time_s / alone.copies as f64],
+            _ => time_shares_s(&planned.plan, &planned.layering.resin, &sharers),
+        };
         for (model, share_s) in models.iter_mut().zip(shares_s) {
             model.print_time_s = share_s;
         }
-        models
+        Ok(models)
     }
 }
 

@@ -37,11 +37,11 @@ pub enum VerifyError {
         /// CRC-32 of that model's file.
         crc32: u32,
     },
-    /// It is of a plate, and a model was given.
-    #[error("it is a plan of a plate; give the job file in place of the model")]
-    OfPlate,
     /// A plate has a model that the job does not have.
-    #[error("it has a model {model_number}, and the job has {models}")]
+    #[error(
+        "it has a model {model_number}, and {models} {} given; give all models in their order, or the job file",
+        if *models == 1 { "is" } else { "are" }
+    )]
     NoModel {
         /// The model, counted from 1.
         model_number: usize,
@@ -88,20 +88,11 @@ pub enum VerifyError {
     OtherPrint,
 }
 
-/// A submitted plan.
+/// A submitted plan of a plate.
 #[derive(Debug, Clone)]
 pub struct Claim {
     report: Value,
-    options: Options,
-    plate: Option<ClaimedPlate>,
-}
-
-#[derive(Deserialize)]
-struct Head {
-    model: ModelFile,
-    options: Options,
-    #[serde(default)]
-    plate: Option<ClaimedPlate>,
+    plate: ClaimedPlate,
 }
 
 #[derive(Deserialize)]
@@ -112,24 +103,13 @@ struct Whole {
 }
 
 impl Claim {
-    /// Reads the JSON of a report, or the manifest of a print file, and checks that it is for this model.
-    ///
-    /// # Errors
-    /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`].
-    pub fn read(json: &str, model: &ModelFile) -> Result<Self, VerifyError> {
-        let report = read(json)?;
-        if report["plates"].is_array() || report["plate"].is_object() {
-            return Err(VerifyError::OfPlate);
-        }
-        Self::of(report, std::slice::from_ref(&model))
-    }
-
-    /// Reads the plans of all plates of a job, or the manifest of one plate's print file, and checks that they are for these models.
+    /// Reads the plans of all plates of a job, the plan of one, or the manifest of its print file, and checks that they are for these
+    /// models.
     ///
     /// # Errors
     /// [`VerifyError::NotAPlan`], [`VerifyError::OtherSchema`], [`VerifyError::OtherModel`], [`VerifyError::NoModel`]; and
     /// [`VerifyError::Differs`] if the plates of a job are not numbered one after the other, or do not add up to its time and resin.
-    pub fn read_plates(json: &str, models: &[&ModelFile]) -> Result<Vec<Self>, VerifyError> {
+    pub fn read(json: &str, models: &[&ModelFile]) -> Result<Vec<Self>, VerifyError> {
         let report = read(json)?;
         if !report["plates"].is_array() {
             return Ok(vec![Self::of(report, models)?]);
@@ -139,79 +119,69 @@ impl Claim {
             resin_ml,
             plates,
         } = Whole::deserialize(&report).map_err(not_a_plan)?;
+        if plates.is_empty() {
+            let system = "it has no plates".to_owned();
+            return Err(VerifyError::NotAPlan { system });
+        }
+        let claims = plates.iter().cloned();
+        let claims = claims.map(|plate| Self::of(plate, models));
+        let claims = claims.collect::<Result<Vec<_>, _>>()?;
         let sum = |key: &str| plates.iter().filter_map(|plate| plate[key].as_f64()).sum();
         let sums: [f64; 2] = ["print_time_s", "resin_ml"].map(sum);
         compare("print_time_s", &print_time_s.into(), &sums[0].into())?;
         compare("resin_ml", &resin_ml.into(), &sums[1].into())?;
         let count = plates.len();
         for (number, plate) in plates.iter().enumerate() {
-            // A copy that is alone has no plate.
-            if count > 1 || plate["plate"].is_object() {
-                let key = format!("plates[{number}].plate");
-                compare(
-                    &format!("{key}.plate"),
-                    &plate["plate"]["plate"],
-                    &number.into(),
-                )?;
-                compare(
-                    &format!("{key}.plates"),
-                    &plate["plate"]["plates"],
-                    &count.into(),
-                )?;
+            for (key, expected) in [("plate", number), ("plate_count", count)] {
+                let path = format!("plates[{number}].{key}");
+                compare(&path, &plate[key], &expected.into())?;
             }
         }
-        let claims = plates.into_iter().map(|plate| Self::of(plate, models));
-        claims.collect()
+        Ok(claims)
     }
 
-    /// The choices with which the plan's model was read, as far as it says so. Whether it is right about that is found out with the rest.
+    /// The choices with which the model of a plan was read, as far as it says so. Whether it is right about that is found out with the
+    /// rest.
     pub fn read_options(json: &str) -> ReadOptions {
-        let model = read(json)
-            .and_then(|report| ModelFile::deserialize(&report["model"]).map_err(not_a_plan));
-        model.map_or_else(|_| ReadOptions::default(), |it| it.read_options())
+        let first = |report: &Value| match &report["plates"] {
+            Value::Array(plates) => plates.first()?["models"].get(0).cloned(),
+            _ => report["models"].get(0).cloned(),
+        };
+        let model = read(json).ok().and_then(|report| first(&report));
+        let file = model.and_then(|model| ModelFile::deserialize(&model["file"]).ok());
+        file.map_or_else(ReadOptions::default, |file| file.read_options())
     }
 
     fn of(report: Value, models: &[&ModelFile]) -> Result<Self, VerifyError> {
-        let Head {
-            model: first,
-            options,
-            plate,
-        } = Head::deserialize(&report).map_err(not_a_plan)?;
-        let check = |claimed: &ModelFile, model: usize| match models.get(model) {
-            None => Err(VerifyError::NoModel {
-                // A submitted number may be any.
-                model_number: model.saturating_add(1),
-                models: models.len(),
-            }),
-            Some(found) if claimed == *found => Ok(()),
-            Some(_) => Err(VerifyError::OtherModel {
-                bytes: claimed.bytes,
-                crc32: claimed.crc32,
-            }),
-        };
-        match &plate {
-            None if models.len() > 1 => Err(VerifyError::NotAPlan {
-                system: "it is of one model, and the job has several".to_owned(),
-            }),
-            None => check(&first, 0),
-            Some(plate) => plate
-                .files()
-                .try_for_each(|(file, model)| check(file, model)),
-        }?;
+        let plate = ClaimedPlate::deserialize(&report).map_err(not_a_plan)?;
+        for (claimed, model) in plate.files() {
+            match models.get(model) {
+                None => {
+                    return Err(VerifyError::NoModel {
+                        // A submitted number may be any.
+                        model_number: model.saturating_add(1),
+                        models: models.len(),
+                    });
+                }
+                Some(found) if claimed == *found => {}
+                Some(_) => {
+                    return Err(VerifyError::OtherModel {
+                        bytes: claimed.bytes,
+                        crc32: claimed.crc32,
+                    });
+                }
+            }
+        }
         check_itself(&report)?;
-        Ok(Self {
-            report,
-            options,
-            plate,
-        })
+        Ok(Self { report, plate })
     }
 
     /// The options that the plan claims to have been made with.
     pub fn options(&self) -> &Options {
-        &self.options
+        &self.plate.options
     }
 
-    /// Plans the plate again, on a plate of the job's models. Its plan is then the only one.
+    /// Plans the plate again, on a job of these models. Its plan is then the only one.
     ///
     /// # Errors
     /// Those of [`Job::plan`].
@@ -220,18 +190,20 @@ impl Claim {
         models: &'a mut Job,
         progress: &mut StageProgress<'_>,
     ) -> Result<&'a Report, Error> {
-        let plate = self.plate.as_ref();
-        models.plan_claimed(plate, &self.options, progress).await
+        models.plan_claimed(&self.plate, progress).await
     }
 
-    /// Compares the plan with `made`, which was planned again with [`Self::options`]. Then checks that the tolerance holds
+    /// Compares the plan with `made`, which [`Self::plan_again`] returns. Then checks that the tolerance holds
     /// on the mesh.
     ///
     /// # Errors
     /// [`VerifyError::OtherWeights`], [`VerifyError::Differs`], [`VerifyError::ToleranceExceeded`].
     pub fn check(&self, made: &Report) -> Result<(), VerifyError> {
-        if self.report["weights_crc32"].as_u64() != made.weights_crc32.map(u64::from) {
-            return Err(VerifyError::OtherWeights);
+        for (place, model) in made.models.iter().enumerate() {
+            let claimed = &self.report["models"][place]["weights_crc32"];
+            if claimed.as_u64() != model.weights_crc32.map(u64::from) {
+                return Err(VerifyError::OtherWeights);
+            }
         }
         // A round trip through text, like that of the claim, so that both have their numbers parsed alike.
         let text = serde_json::to_string(made);

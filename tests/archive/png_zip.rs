@@ -106,7 +106,7 @@ fn a_change_of_tolerance_keeps_the_ldi_and_changes_the_plan() {
     let report = pollster::block_on(slicer.plan(&uniform, &mut quiet)).unwrap();
     assert_eq!((report.layers, report.planner.as_str()), (60, "uniform"));
     assert!(matches!(
-        report.warnings[0],
+        report.all_warnings()[0],
         Warning::ToleranceExceeded { .. }
     ));
 }
@@ -133,7 +133,7 @@ fn an_open_model_slices_with_a_warning() {
     let mut open = solids::sphere(3.0, 4);
     open.truncate(open.len() - 40);
     let (_, _, report) = slice(&open, &options());
-    let codes: Vec<_> = report["warnings"]
+    let codes: Vec<_> = report["models"][0]["warnings"]
         .as_array()
         .unwrap()
         .iter()

@@ -5,7 +5,7 @@ use std::process::Output;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{assert_fails, cusp, json, model, names, on_cpu, slab, sphere};
+use super::{assert_fails, cusp, json, model, names, of_only_plate, on_cpu, slab, sphere};
 use crate::common::{binary_stl, solids};
 
 const QUICK: [&str; 4] = ["--pitch", "0.1", "--backend", "cpu"];
@@ -53,7 +53,7 @@ fn each_model_of_a_batch_gives_the_print_file_that_it_gives_alone() {
         assert_eq!(line["error"], Value::Null);
         let file = format!("{alone}{name}.zip");
         let report = json(&quick(&["slice", model, "-o", &file, "--json"]));
-        assert_eq!(line["report"]["z_mm"], report["z_mm"]);
+        assert_eq!(line["report"]["plates"][0]["z_mm"], report["z_mm"]);
         assert!(std::fs::read(&file).unwrap() == std::fs::read(&print).unwrap());
     }
     assert_eq!(files_in(&prints), ["ball.zip", "slab.zip"]);
@@ -192,7 +192,7 @@ fn plan_and_info_take_several_models() {
         assert!(lines[1]["error"]["code"].is_string());
         for (line, model) in [(&lines[0], &ball), (&lines[2], &slab)] {
             let mut alone = json(&run(&[model, "--json"]));
-            let mut report = line["report"].clone();
+            let mut report = of_only_plate(line["report"].clone());
             for report in [&mut alone, &mut report] {
                 report["timings_ms"].take();
             }

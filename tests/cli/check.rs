@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{assert_fails, cusp, json, model, on_cpu};
+use super::{assert_fails, cusp, json, model, of_only_plate, on_cpu};
 use crate::common::{binary_stl, solids};
 
 /// A hollow ball, whose inside no hole drains.
@@ -39,12 +39,11 @@ fn a_shop_sets_what_it_accepts() {
     let check = |options: &[&str]| {
         let output = on_cpu(&[&["check", &hollow, "--pitch", "0.05", "--json"], options].concat());
         let checked = serde_json::from_slice(&output.stdout);
-        let checked: serde_json::Value = checked.unwrap();
-        checked
+        of_only_plate(checked.unwrap())
     };
     let checked = check(&[]);
     assert_eq!(checked["verdict"], "reject");
-    let trap = &checked["findings"][0];
+    let trap = &checked["models"][0]["findings"][0];
     assert_eq!(
         (&trap["code"], &trap["severity"]),
         (&"trap".into(), &"reject".into())
@@ -55,7 +54,10 @@ fn a_shop_sets_what_it_accepts() {
     assert_eq!(checked["limits"]["wall_mm"], 0.4);
     let checked = check(&["--limits", &lenient]);
     assert_eq!(checked["verdict"], "ok");
-    assert_eq!(checked["findings"].as_array().unwrap().len(), 0);
+    assert_eq!(
+        checked["models"][0]["findings"].as_array().unwrap().len(),
+        0
+    );
 }
 
 #[test]
@@ -64,8 +66,8 @@ fn a_cube_is_printed() {
     let cube = model(&folder, "cube.stl", &binary_stl(&solids::cube(5.0)));
     let checked = json(&on_cpu(&["check", &cube, "--pitch", "0.05", "--json"]));
     assert_eq!(checked["verdict"], "ok");
-    assert_eq!(checked["bodies"], 1);
-    assert_eq!(checked["peel"]["contact"], 1.0);
+    assert_eq!(checked["models"][0]["bodies"], 1);
+    assert_eq!(checked["models"][0]["peel"]["contact"], 1.0);
 }
 
 #[test]
@@ -128,7 +130,10 @@ fn each_model_of_a_job_is_checked_in_the_layers_of_its_plate() {
         .stdout,
     )
     .unwrap();
-    assert_eq!(floating["counts"], alone["counts"]);
+    assert_eq!(
+        floating["counts"],
+        alone["plates"][0]["models"][0]["counts"]
+    );
     assert_eq!(
         (&cube["model"], &cube["verdict"]),
         (&1.into(), &"ok".into())

@@ -168,7 +168,7 @@ fn files_are_named_from_where_the_file_of_settings_is() {
     std::fs::write(inside("cusp.toml"), settings).unwrap();
     let config = inside("cusp.toml");
     let report = json(&on_cpu(&["plan", &ball, "--config", &config, "--json"]));
-    assert!(report["weights_crc32"].is_u64());
+    assert!(report["models"][0]["weights_crc32"].is_u64());
     assert_eq!(report["resin"]["exposure_s"], 2.5);
     assert_eq!(report["mask"]["width"], 300);
 

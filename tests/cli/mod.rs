@@ -72,7 +72,25 @@ fn slab(folder: &TempDir) -> String {
     model(folder, "slab.stl", &binary_stl(&slab))
 }
 
+/// What a command prints as JSON; of a job of one plate, that plate with the rest.
 fn json(output: &Output) -> Value {
+    of_only_plate(whole_json(output))
+}
+
+fn of_only_plate(mut whole: Value) -> Value {
+    let plates = whole.get_mut("plates").and_then(Value::as_array_mut);
+    let Some(mut only) = plates.filter(|plates| plates.len() == 1).and_then(Vec::pop) else {
+        return whole;
+    };
+    let whole = whole.as_object_mut().unwrap();
+    for (key, value) in whole.iter_mut().filter(|it| it.0 != "plates") {
+        let of_plate = only.as_object_mut().unwrap();
+        of_plate.entry(key.clone()).or_insert(value.take());
+    }
+    only
+}
+
+fn whole_json(output: &Output) -> Value {
     assert!(
         output.status.success(),
         "{}",

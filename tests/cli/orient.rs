@@ -27,7 +27,7 @@ fn orient_finds_the_best_direction_and_applies_it() {
     let best = &found["best"][0];
     assert_eq!(
         found["model"],
-        json(&on_cpu(&["plan", &model, "--json"]))["model"]
+        json(&on_cpu(&["plan", &model, "--json"]))["models"][0]["file"]
     );
     assert!((best["size_mm"][2].as_f64().unwrap() - 2.0).abs() < 1e-4);
     assert!(best["energy"].as_f64() < found["now"]["energy"].as_f64());

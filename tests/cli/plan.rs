@@ -33,8 +33,8 @@ fn plan_prints_one_json_object_with_every_key() {
         "gpu_method",
         "bins",
         "bin_mm",
-        "facets",
-        "hits",
+        "models",
+        "placements",
         "mask",
         "warnings",
         "timings_ms",
@@ -245,7 +245,7 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
     let supported = plan(&["--supports", "light", "--lift", "4"]);
     let height_mm = |report: &serde_json::Value| report["height_mm"].as_f64().unwrap();
     assert_near(height_mm(&supported) - height_mm(&bare), 4.0, 1e-9);
-    let points = supported["supported"]["points"].clone();
+    let points = supported["models"][0]["supported"]["points"].clone();
     assert!(!points.as_array().unwrap().is_empty());
 
     // The points of the report in a file give the same print.

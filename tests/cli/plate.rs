@@ -5,7 +5,7 @@ use std::process::Output;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
-use super::{assert_fails, cusp, json as parsed, model, names, slab, sphere};
+use super::{assert_fails, cusp, model, names, slab, sphere, whole_json as parsed};
 use crate::common::{binary_stl, solids};
 
 /// A plate of 40 × 30 mm.
@@ -36,7 +36,7 @@ fn models_and_copies_are_sliced_into_one_print_file() {
     ]));
     let plates = report["plates"].as_array().unwrap();
     assert_eq!(plates.len(), 1);
-    let models = &plates[0]["plate"]["models"];
+    let models = &plates[0]["models"];
     assert_eq!(models[0]["copies"], 3);
     assert_eq!(models[1]["copies"], 1);
     let inspected = parsed(&cusp(&["inspect", &print, "--json"]));
@@ -45,10 +45,7 @@ fn models_and_copies_are_sliced_into_one_print_file() {
     let file = std::fs::File::open(&print).unwrap();
     let mut zip = zip::ZipArchive::new(file).unwrap();
     let manifest: Value = serde_json::from_reader(zip.by_name("manifest.json").unwrap()).unwrap();
-    assert_eq!(
-        manifest["plate"]["placements"],
-        plates[0]["plate"]["placements"]
-    );
+    assert_eq!(manifest["placements"], plates[0]["placements"]);
 }
 
 #[test]
@@ -77,11 +74,11 @@ fn one_copy_arranged_is_reported_as_several_are_and_printed_as_alone() {
         &path_in(&folder, "two.goo"),
     ]));
     let keys = |report: &Value| {
-        let plate = report["plates"][0]["plate"].as_object().unwrap();
+        let plate = report["plates"][0].as_object().unwrap();
         plate.keys().cloned().collect::<Vec<_>>()
     };
     assert_eq!(keys(&one), keys(&two));
-    assert_eq!(one["plates"][0]["plate"]["models"][0]["copies"], 1);
+    assert_eq!(one["plates"][0]["models"][0]["copies"], 1);
 }
 
 #[test]
@@ -110,10 +107,7 @@ fn a_job_file_holds_models_options_and_places() {
     assert_eq!(written["options"]["pixels"], json!([400, 300]));
     // Without options on the command line: they are in the file.
     let report = parsed(&cusp(&["plan", &job, "--json"]));
-    assert_eq!(
-        report["plates"][0]["plate"]["placements"],
-        written["placements"]
-    );
+    assert_eq!(report["plates"][0]["placements"], written["placements"]);
     // Places can be edited by hand, models have tolerances of their own, and paths are relative to the file.
     written["placements"].as_array_mut().unwrap().truncate(2);
     written["models"][0]["copies"] = 2.into();
@@ -121,7 +115,7 @@ fn a_job_file_holds_models_options_and_places() {
     written["models"][0]["tolerance"] = 0.055.into();
     std::fs::write(&job, written.to_string()).unwrap();
     let report = parsed(&cusp(&["plan", &job, "--json"]));
-    let model = &report["plates"][0]["plate"]["models"][0];
+    let model = &report["plates"][0]["models"][0];
     assert_eq!(model["copies"], 2);
     assert!(model["max_error"].as_f64().unwrap() <= 0.055 + 1e-9);
     // What is on the command line goes before the file, and --arrange places copies again.
@@ -133,7 +127,7 @@ fn a_job_file_holds_models_options_and_places() {
         "0.1",
         "--json",
     ]));
-    assert_eq!(report["plates"][0]["plate"]["models"][0]["copies"], 2);
+    assert_eq!(report["plates"][0]["models"][0]["copies"], 2);
     assert_eq!(report["plates"][0]["options"]["layer_max_mm"], 0.1);
 }
 
@@ -191,7 +185,7 @@ fn what_cannot_be_a_plate_is_said() {
     let weights = path_in(&folder, "ball.weights");
     assert!(cusp(&["saliency", &ball, "-o", &weights]).status.success());
     assert_fails(
-        &small(&["plan", &ball, "--arrange", "--weights", &weights]),
+        &small(&["plan", &ball, &ball, "--arrange", "--weights", &weights]),
         2,
         "job file",
     );
@@ -218,12 +212,12 @@ fn weights_of_a_job_file_belong_to_their_model() {
         json!([{ "file": ball, "weights": "ball.weights" }, { "file": slab, "copies": 2 }]);
     std::fs::write(&job, json!({ "models": models }).to_string()).unwrap();
     let report = parsed(&small(&["plan", &job, "--json"]));
-    let models = &report["plates"][0]["plate"]["models"];
+    let models = &report["plates"][0]["models"];
     assert!(models[0]["weights_crc32"].is_number());
     assert!(models[1]["weights_crc32"].is_null());
     // Arranging the job again keeps them.
     let again = path_in(&folder, "again.json");
     assert!(small(&["plate", &job, "-o", &again]).status.success());
     let again = parsed(&cusp(&["plan", &again, "--json"]));
-    assert_eq!(again["plates"][0]["plate"]["models"], *models);
+    assert_eq!(again["plates"][0]["models"], *models);
 }

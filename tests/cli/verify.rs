@@ -4,7 +4,7 @@ use glam::Vec3;
 use serde_json::Value;
 use tempfile::TempDir;
 
-use super::{assert_fails, cusp, json, model, on_cpu, sphere};
+use super::{assert_fails, cusp, json, model, on_cpu, sphere, whole_json};
 use crate::common::{binary_stl, solids};
 use crate::read::package;
 
@@ -86,7 +86,7 @@ fn choices_of_reading_are_in_the_plan_and_verify_follows_them() {
     let plan = folder.path().join("plan.json").display().to_string();
     let planned = on_cpu(&[&["plan", &model, "--json"], &choices[..]].concat());
     std::fs::write(&plan, &planned.stdout).unwrap();
-    let file = &json(&planned)["model"];
+    let file = &json(&planned)["models"][0]["file"];
     assert_eq!(
         (&file["surfaces"], &file["curved_caps"]),
         (&true.into(), &true.into())
@@ -107,7 +107,7 @@ fn choices_of_reading_are_in_the_plan_and_verify_follows_them() {
         "mars-4-ultra",
         "--json",
     ]));
-    let file = &planned["plates"][0]["plate"]["models"][0]["file"];
+    let file = &planned["models"][0]["file"];
     assert_eq!(
         (&file["surfaces"], &file["curved_caps"]),
         (&true.into(), &true.into())
@@ -141,7 +141,7 @@ fn weights_go_from_file_to_plan_and_back_through_verify() {
     // The weights file gives the same plan as `--saliency`.
     assert_eq!(json(&weighted)["z_mm"], json(&salient)["z_mm"]);
     assert!(json(&weighted)["layers"].as_u64() < plain["layers"].as_u64());
-    assert_eq!(plain["weights_crc32"], Value::Null);
+    assert_eq!(plain["models"][0]["weights_crc32"], Value::Null);
 
     let plan = folder.path().join("plan.json").display().to_string();
     std::fs::write(&plan, &weighted.stdout).unwrap();
@@ -185,10 +185,10 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
     let (plan, print) = (path("plan.json"), path("print.zip"));
     let sliced = cusp(&["slice", &job, "-o", &print, "--json"]);
     std::fs::write(&plan, &sliced.stdout).unwrap();
-    let whole = json(&sliced);
+    let whole = whole_json(&sliced);
     let count = whole["plates"].as_array().unwrap().len();
     assert_eq!(count, 2);
-    let verified = json(&cusp(&["verify", &plan, &job, "--json"]));
+    let verified = whole_json(&cusp(&["verify", &plan, &job, "--json"]));
     assert_eq!(verified["resin_ml"], whole["resin_ml"]);
     assert_eq!(verified["plates"].as_array().unwrap().len(), count);
 
@@ -200,12 +200,20 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
         let mut file = std::fs::File::create(&manifest).unwrap();
         std::io::copy(&mut zip.by_name("manifest.json").unwrap(), &mut file).unwrap();
         let output = cusp(&["verify", &manifest, &job, "--print", &print, "--json"]);
-        assert_eq!(json(&output)["plates"][0]["print_is_same"], true);
+        assert_eq!(json(&output)["print_is_same"], true);
         let other = path(&format!("print-{}.zip", count + 1 - number));
         let output = cusp(&["verify", &manifest, &job, "--print", &other]);
         assert_fails(&output, 1, "not the print file that this plan gives");
-        assert_fails(&cusp(&["verify", &manifest, &ball]), 1, "give the job file");
     }
+
+    // Models in their order are as good as the job file, but for weights; the first alone is not.
+    let column = path("column.stl");
+    assert_fails(
+        &cusp(&["verify", &plan, &column, &ball]),
+        1,
+        "other weights",
+    );
+    assert_fails(&cusp(&["verify", &plan, &column]), 1, "give all models");
 
     // Copies are measured one by one, as models alone.
     let output = cusp(&["simulate", &ball, &path("print-1.zip")]);
@@ -217,38 +225,42 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
         std::fs::write(&plan, lie.to_string()).unwrap();
         assert_fails(&cusp(&["verify", &plan, &job]), 1, words);
     };
-    let first = |lie: &mut Value, key: &str, value: Value| lie["plates"][0]["plate"][key] = value;
+    let first = |lie: &mut Value, key: &str, value: Value| lie["plates"][0][key] = value;
     refuses(&|lie| lie["resin_ml"] = 0.5.into(), "resin_ml is 0.5");
     refuses(
         &|lie| lie["plates"].as_array_mut().unwrap().truncate(1),
         "print_time_s is",
     );
+    refuses(
+        &|lie| lie["plates"] = Value::Array(Vec::new()),
+        "it has no plates",
+    );
     refuses(&|lie| first(lie, "plate", 1.into()), "plate is 1");
     refuses(
         &|lie| {
             let key = "print_time_s";
-            lie["plates"][0]["plate"]["models"][0][key] = 1.0.into();
+            lie["plates"][0]["models"][0][key] = 1.0.into();
         },
         "print_time_s is 1.0",
     );
     refuses(
-        &|lie| lie["plates"][0]["plate"]["models"][0]["options"]["tolerance"] = 0.5.into(),
+        &|lie| lie["plates"][0]["models"][0]["options"]["tolerance"] = 0.5.into(),
         "it is not what the model and its options give",
     );
     refuses(
-        &|lie| lie["plates"][0]["plate"]["models"][0]["options"]["copies"] = 3.into(),
+        &|lie| lie["plates"][0]["models"][0]["options"]["copies"] = 3.into(),
         "copies is 3",
     );
     refuses(
         &|lie| {
-            let place = lie["plates"][0]["plate"]["placements"][0].clone();
-            lie["plates"][0]["plate"]["placements"][1] = place;
+            let place = lie["plates"][0]["placements"][0].clone();
+            lie["plates"][0]["placements"][1] = place;
         },
         "overlap on plate 1",
     );
     refuses(
-        &|lie| lie["plates"][0]["plate"]["models"][0]["model"] = 7.into(),
-        "a model 8, and the job has 2",
+        &|lie| lie["plates"][0]["models"][0]["model"] = 7.into(),
+        "a model 8, and 2 are given",
     );
     // Another file in the place of a model.
     std::fs::write(&plan, whole.to_string()).unwrap();

@@ -137,10 +137,10 @@ fn the_stricter_rules_of_orca_slicer_hold() {
         }
         assert_near(file.profile[file.profile.len() - 2], file.height_mm(), 1e-3);
         let untried = |warning: &Warning| matches!(warning, Warning::UntriedSlicer { .. });
-        assert!(report.warnings.iter().any(untried));
+        assert!(report.all_warnings().iter().any(untried));
     }
     let (_, report) = slice(&solids::cube(5.0), &options(Format::Prusa3mf)).unwrap();
-    assert_eq!(report.warnings, []);
+    assert_eq!(report.all_warnings(), []);
 }
 
 /// Every edge of the mesh has a partner, also where a hole had to be closed, so that no slicer has to mend it.

@@ -143,7 +143,10 @@ fn auto_does_its_work_whatever_the_machine_has() {
         },
     )
     .unwrap();
-    assert_eq!((auto.z_mm, auto.hits), (on_cpu.z_mm, on_cpu.hits));
+    assert_eq!(
+        (auto.z_mm, auto.models[0].hits),
+        (on_cpu.z_mm, on_cpu.models[0].hits)
+    );
 }
 
 /// A stage whose part of the options is the same keeps its result: another print file needs neither rays nor a plan.

@@ -53,7 +53,7 @@ fn the_plan_warns_of_exactly_the_layers_whose_masks_are_black() {
         };
         let report = plan(&mut slicer, &options).unwrap();
         let warned: Vec<_> = report
-            .warnings
+            .all_warnings()
             .iter()
             .filter_map(|warning| match *warning {
                 Warning::BlackLayers { layers, from_mm } => Some((layers, from_mm)),
@@ -144,7 +144,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
     assert!(report.max_error > 0.02);
     assert!(
         report
-            .warnings
+            .all_warnings()
             .iter()
             .any(|warning| matches!(warning, Warning::ToleranceExceededOnMesh { .. }))
     );

@@ -185,7 +185,7 @@ fn estimates_of_supports_order_directions_as_what_is_built_does() {
                 ..options.clone()
             };
             let report = pollster::block_on(model.plan(&posed, &mut quiet)).unwrap();
-            let built_ml = report.supported.as_ref().unwrap().support_ml;
+            let built_ml = report.models[0].supported.as_ref().unwrap().support_ml;
             [candidate.metrics.unwrap().support_ml, built_ml]
         })
         .collect();

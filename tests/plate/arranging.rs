@@ -383,7 +383,7 @@ fn models_have_poses_of_their_own() {
         ..job(options(), &[])
     };
     let report = plan(&mut plate(&[&bar, &bar]), &options).unwrap();
-    let models = &report.plates[0].plate.as_ref().unwrap().models;
+    let models = &report.plates[0].models;
     let size = |model: usize| models[model].size_mm.map(|mm| (mm * 1e3).round() / 1e3);
     assert_eq!(size(0), [2.0, 4.0, 35.0]);
     assert_eq!(size(1), [35.0, 4.0, 2.0]);

@@ -54,7 +54,7 @@ fn a_plate_of_one_is_byte_for_byte_what_the_model_alone_gives() {
             .unwrap();
         let mut one = plate(&[&ball]);
         let report = plan(&mut one, &job(options.clone(), &[1])).unwrap();
-        assert!(report.plates[0].plate.is_none());
+        assert_eq!(report.plates[0].placements, [Placement::MIDDLE]);
         assert!(archive(&mut one, 0) == expected.into_inner(), "{options:?}");
     }
 }
@@ -75,14 +75,13 @@ fn turned_copies_have_the_same_supports() {
         ..job(supported(), &[3])
     };
     let report = plan(&mut several, &options).unwrap().plates.remove(0);
-    let on_plate = report.supported.unwrap();
+    let on_plate = report.models[0].supported.clone().unwrap();
     let mut slicer = load(&bar);
     let alone = pollster::block_on(slicer.plan(&supported(), &mut quiet))
         .unwrap()
         .clone();
-    let of_one = alone.supported.as_ref().unwrap();
-    let thrice_ml = 3.0 * of_one.support_ml;
-    assert!((on_plate.support_ml - thrice_ml).abs() < 0.02 * thrice_ml);
+    let of_one = alone.models[0].supported.as_ref().unwrap();
+    assert!((on_plate.support_ml / of_one.support_ml - 1.0).abs() < 0.02);
     assert_eq!(on_plate.lift_mm, 3.0);
     assert_eq!(report.z_mm, alone.z_mm);
     // What is drawn of each copy.

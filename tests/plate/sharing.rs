@@ -20,10 +20,10 @@ fn copies_cost_the_rays_of_one() {
     let [report] = &report.plates[..] else {
         panic!("one plate")
     };
-    assert_eq!(report.hits, one.hits);
+    assert_eq!(report.models[0].hits, one.models[0].hits);
     assert_eq!((&report.z_mm, report.max_error), (&one.z_mm, one.max_error));
     assert_near(report.resin_ml, 40.0 * one.resin_ml, 1e-9);
-    assert_eq!(report.plate.as_ref().unwrap().placements.len(), 40);
+    assert_eq!(report.placements.len(), 40);
 }
 
 #[test]
@@ -33,7 +33,7 @@ fn plates_of_the_same_models_have_one_plan() {
     let report = plan(&mut many, &job(options(), &[30])).unwrap();
     assert_eq!(report.plates.len(), 3);
     assert_eq!(report.plates[0].z_mm, report.plates[1].z_mm);
-    let copies = |plate: usize| report.plates[plate].plate.as_ref().unwrap().models[0].copies;
+    let copies = |plate: usize| report.plates[plate].models[0].copies;
     assert_eq!([copies(0), copies(1), copies(2)], [12, 12, 6]);
     assert_near(
         report.print_time_s,
@@ -75,7 +75,7 @@ fn no_model_of_a_plate_exceeds_its_own_tolerance_and_each_alone_needs_fewer_laye
         };
         let report = plan(&mut both, &options).unwrap();
         let report = &report.plates[0];
-        let models = &report.plate.as_ref().unwrap().models;
+        let models = &report.models;
         for (model, (solid, tolerance)) in [(&ball, 0.065), (&cone, own.unwrap_or(0.065))]
             .into_iter()
             .enumerate()
@@ -166,7 +166,7 @@ fn the_advice_on_a_tolerance_that_cannot_be_kept_works_in_the_figures_of_whom_it
                 *slot = least;
             }
             let report = plan(&mut both, &of(own, tolerance, thicknesses_mm)).unwrap();
-            let models = &report.plates[0].plate.as_ref().unwrap().models;
+            let models = &report.plates[0].models;
             for (model, own) in models.iter().zip(own) {
                 assert!(model.max_error <= own.unwrap_or(tolerance) + 1e-6);
             }
@@ -186,7 +186,7 @@ fn time_is_shared_by_the_copies_that_a_layer_reaches() {
     let mut both = plate(&[&low, &high]);
     let report = plan(&mut both, &options).unwrap();
     let report = &report.plates[0];
-    let models = &report.plate.as_ref().unwrap().models;
+    let models = &report.models;
     let layer_s = |bottom_mm: f64, top_mm: f64| {
         let layers = report.z_mm.windows(2).zip(&report.exposure_s);
         let within =
@@ -210,7 +210,7 @@ fn shares_follow_the_true_area_of_shadows() {
         solids::cuboid(Vec3::new(20.0, 0.5, 5.0)),
     );
     let report = plan(&mut plate(&[&wide, &narrow]), &job(options(), &[1, 1])).unwrap();
-    let models = &report.plates[0].plate.as_ref().unwrap().models;
+    let models = &report.plates[0].models;
     let all_s = report.print_time_s;
     assert_near(models[0].print_time_s, all_s * 6.0 / 7.0, 1e-3);
     assert_near(models[1].print_time_s, all_s / 7.0, 1e-3);
@@ -336,7 +336,7 @@ fn a_change_of_places_repeats_neither_rays_nor_plan() {
     let mut two = plate(&[&ball]);
     let options = job(options(), &[2]);
     let first = plan(&mut two, &options).unwrap();
-    let mut placements = first.plates[0].plate.as_ref().unwrap().placements.clone();
+    let mut placements = first.plates[0].placements.clone();
     placements[0].x_mm -= 5.0;
     let moved = JobOptions {
         placements,
@@ -345,5 +345,5 @@ fn a_change_of_places_repeats_neither_rays_nor_plan() {
     let second = plan(&mut two, &moved).unwrap();
     assert_eq!(second.plates[0].timings_ms.ldi, 0.0);
     assert_eq!(second.plates[0].z_mm, first.plates[0].z_mm);
-    assert_ne!(second.plates[0].plate, first.plates[0].plate);
+    assert_ne!(second.plates[0].placements, first.plates[0].placements);
 }

@@ -37,7 +37,7 @@ fn a_hole_by_hand_goes_through_the_wall_and_no_further() {
     let mut cube = load(&solids::cube(20.0));
     let solid = plan(&mut cube, &hollowed(Hollowing::default()));
     let report = plan(&mut cube, &hollowed(drained(vec![SIDE])));
-    let void = report.hollowed.unwrap();
+    let void = report.models[0].hollowed.clone().unwrap();
     let [drain] = void.drains[..] else {
         panic!("{void:?}");
     };
@@ -50,7 +50,7 @@ fn a_hole_by_hand_goes_through_the_wall_and_no_further() {
         area_mm2 * depth_mm / 1e3,
         2e-4,
     );
-    assert_eq!(report.warnings, []);
+    assert_eq!(report.all_warnings(), []);
 }
 
 #[test]
@@ -61,7 +61,7 @@ fn a_slanted_hole_is_deep_enough_for_its_whole_rim() {
     };
     let mut cube = load(&solids::cube(20.0));
     let void = plan(&mut cube, &hollowed(drained(vec![slanted])));
-    let void = void.hollowed.unwrap();
+    let void = void.models[0].hollowed.clone().unwrap();
     // The middle crosses a wall of 2 mm at 45°, and the farthest point of the rim enters it a radius later.
     let depth_mm = void.drains[0].depth_mm.unwrap();
     let expected_mm = 2.0 * 2f64.sqrt() + 1.5;
@@ -81,7 +81,7 @@ fn a_slanted_hole_is_where_it_was_asked_for_at_the_side_of_the_box() {
         // What it takes of a wall of 2 mm is a slanted cylinder.
         let [x, y, z] = direction;
         let longer = (x * x + y * y + z * z).sqrt();
-        let wall_mm = 2.0 + 0.5 * report.hollowed.clone().unwrap().resolution_mm;
+        let wall_mm = 2.0 + 0.5 * report.models[0].hollowed.clone().unwrap().resolution_mm;
         let expected_mm3 = 7.02 * wall_mm * longer;
         let taken_mm3 = (solid.resin_ml - report.resin_ml) * 1e3;
         println!("{direction:?}: {taken_mm3:.2} of {expected_mm3:.2}");
@@ -105,8 +105,11 @@ fn a_hole_that_meets_no_void_is_left_out_and_named() {
     };
     let mut cube = load(&solids::cube(20.0));
     let report = plan(&mut cube, &hollowed(drained(vec![SIDE, outward])));
-    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
-    assert_eq!(report.warnings, [Warning::DrainAstray { drain_number: 2 }]);
+    assert_eq!(report.models[0].hollowed.clone().unwrap().drains.len(), 1);
+    assert_eq!(
+        report.all_warnings(),
+        [Warning::DrainAstray { drain_number: 2 }]
+    );
 }
 
 /// Upright cuboids from a corner to the opposite one.
@@ -150,11 +153,11 @@ fn automatic_holes_leave_no_trap_and_no_cup() {
         assert!(codes(&mut model).contains(&Code::Trap), "{name}");
         let report = plan(&mut model, &hollowed(automatic()));
         assert_eq!(codes(&mut model), [], "{name}");
-        let void = report.hollowed.unwrap();
+        let void = report.models[0].hollowed.clone().unwrap();
         println!("{name}: {:?}", void.drains);
         // The table's top has a floor around its leg, at one height all the way.
         assert!(void.drains.len() <= holes, "{name}: {:?}", void.drains);
-        assert_eq!(report.warnings, [], "{name}");
+        assert_eq!(report.all_warnings(), [], "{name}");
     }
 }
 
@@ -163,9 +166,9 @@ fn holes_of_a_report_can_be_given_again() {
     let mut ball = load(&solids::sphere(15.0, 4));
     let report = plan(&mut ball, &hollowed(automatic()));
     let mask = ball.mask(30).unwrap();
-    let drains = report.hollowed.clone().unwrap().drains;
+    let drains = report.models[0].hollowed.clone().unwrap().drains;
     let again = plan(&mut ball, &hollowed(drained(drains)));
-    assert_eq!(again.hollowed, report.hollowed);
+    assert_eq!(again.models[0].hollowed, report.models[0].hollowed);
     assert_eq!(again.resin_ml, report.resin_ml);
     assert!(ball.mask(30).unwrap() == mask);
 }
@@ -237,7 +240,7 @@ fn holes_that_no_plate_holds_are_left_out() {
     ] {
         let report = plan(&mut cube, &hollowed(drained(vec![drain])));
         assert_eq!(
-            report.warnings,
+            report.all_warnings(),
             [Warning::DrainAstray { drain_number: 1 }],
             "{drain:?}"
         );
@@ -270,7 +273,7 @@ fn holes_as_wide_as_the_model_are_not_made() {
             ..Hollowing::default()
         };
         let report = plan(&mut cube, &hollowed(hollow));
-        assert_eq!(report.warnings, [Warning::Undrained { basins: 1 }]);
+        assert_eq!(report.all_warnings(), [Warning::Undrained { basins: 1 }]);
     }
 }
 
@@ -285,7 +288,7 @@ fn pits_beside_a_hole_are_filled() {
         ]);
         let mut model = load(&model);
         let report = plan(&mut model, &hollowed(automatic()));
-        assert_eq!(report.warnings, []);
+        assert_eq!(report.all_warnings(), []);
         let limits = Limits {
             cup_mm2: 0.05,
             trap_ml: 0.0,
@@ -297,7 +300,7 @@ fn pits_beside_a_hole_are_filled() {
         assert_eq!(kept, None, "{groove_mm} mm");
         // Walls grow by no more than the pit was deep.
         let unfilled = plan(&mut model, &hollowed(Hollowing::default()));
-        let void_ml = |report: &Report| report.hollowed.as_ref().unwrap().void_ml;
+        let void_ml = |report: &Report| report.models[0].hollowed.as_ref().unwrap().void_ml;
         let most_ml = f64::from(groove_mm) * 36.0 * 16.0 / 1e3;
         let filled_ml = void_ml(&unfilled) - void_ml(&report);
         assert!((0.0..most_ml).contains(&filled_ml), "{filled_ml}");
@@ -318,8 +321,8 @@ fn automatic_holes_keep_off_what_weighs_more_where_they_can() {
             ..Hollowing::default()
         });
         let report = plan(cube, &options);
-        assert_eq!(report.warnings, []);
-        let [drain] = report.hollowed.unwrap().drains[..] else {
+        assert_eq!(report.all_warnings(), []);
+        let [drain] = report.models[0].hollowed.clone().unwrap().drains[..] else {
             panic!("one basin has one hole");
         };
         drain

@@ -37,7 +37,7 @@ fn a_hollow_model_has_the_planes_of_the_solid_one() {
             assert_eq!(hollow.z_mm, solid.z_mm, "{metric:?} {source:?}");
             assert_eq!(hollow.max_error, solid.max_error, "{metric:?} {source:?}");
             assert_eq!(hollow.snapped_mm, solid.snapped_mm, "{metric:?} {source:?}");
-            let void_ml = hollow.hollowed.unwrap().void_ml;
+            let void_ml = hollow.models[0].hollowed.clone().unwrap().void_ml;
             assert_near(solid.resin_ml - hollow.resin_ml, void_ml, 1e-3 * void_ml);
         }
     }
@@ -97,10 +97,10 @@ fn a_change_of_supports_hollows_nothing_again() {
 fn a_model_that_is_too_thin_stays_solid_with_a_warning() {
     let mut plate = load(&solids::cuboid(Vec3::new(20.0, 20.0, 3.0)));
     let report = plan(&mut plate, &hollowed(Hollowing::default()));
-    assert_eq!(report.hollowed, None);
+    assert_eq!(report.models[0].hollowed, None);
     let (wall_mm, cavity_mm) = (2.0, 2.0);
     let warning = Warning::NothingHollowed { wall_mm, cavity_mm };
-    assert_eq!(report.warnings, [warning]);
+    assert_eq!(report.all_warnings(), [warning]);
 }
 
 #[test]
@@ -245,8 +245,11 @@ fn holes_by_hand_are_for_a_model_alone() {
         })
     ));
     let report = pollster::block_on(plate.plan(&on_plate(Vec::new()), &mut quiet)).unwrap();
-    let void = report.plates[0].hollowed.clone().unwrap();
-    assert!(void.void_ml > 0.1 && void.drains.is_empty());
+    // Each model has its own.
+    for model in &report.plates[0].models {
+        let void = model.hollowed.as_ref().unwrap();
+        assert!(void.void_ml > 0.1 && void.drains.len() == 1);
+    }
 }
 
 #[test]

@@ -74,7 +74,7 @@ fn a_supported_model_hangs_together_and_its_islands_are_gone() {
         let (report, found) = checked(&mut model, &supported(Supporting::default()));
         let (pixels, layers) = largest_island(&found, 0.01);
         // Pixels that a layer begins with a layer early.
-        let supported = report.supported.unwrap();
+        let supported = report.models[0].supported.clone().unwrap();
         // The gyroid has sheets and ridges thinner than pixels: masks show parts of them a layer or two early.
         let most = if name == "gyroid" {
             (25.5, 2)
@@ -160,7 +160,7 @@ fn tips_touch_what_they_should() {
         };
         let (report, found) = checked(&mut slab, &options);
         let profile = strength.profile();
-        let contacts = report.supported.as_ref().unwrap().points.len();
+        let contacts = report.models[0].supported.as_ref().unwrap().points.len();
         // Lit just below the slab, with what a cone is wider half a layer down.
         let layer = (profile.lift_mm / 0.05) as usize - 1;
         let lit_mm2 = found.peel.area_mm2[layer];
@@ -244,7 +244,7 @@ fn a_supported_model_has_the_planes_of_the_lifted_one() {
             let [with, without] = [with, without].map(|options| plan(&mut ball, &options));
             assert_eq!(with.z_mm, without.z_mm, "{metric:?} {source:?}");
             assert_eq!(with.max_error, without.max_error, "{metric:?} {source:?}");
-            let supported = with.supported.unwrap();
+            let supported = with.models[0].supported.clone().unwrap();
             let more_ml = with.resin_ml - without.resin_ml;
             assert_near(more_ml, supported.support_ml, 1e-3 * more_ml);
         }
@@ -318,7 +318,7 @@ fn points_by_hand_are_held_or_named() {
     let mut ball = load(&solids::sphere(10.0, 5));
     let report = plan(&mut ball, &supported(given));
     let astray = Warning::SupportAstray { point_number: 2 };
-    assert_eq!(report.warnings, [astray]);
+    assert_eq!(report.all_warnings(), [astray]);
 
     // Inside a closed shell nothing leads to the plate, but its floor is there; in a narrow slot there is no room.
     let mut shell = solids::sphere(15.0, 5);
@@ -345,7 +345,7 @@ fn points_by_hand_are_held_or_named() {
     let report = plan(&mut load(&slot), &supported(given));
     assert!(
         report
-            .warnings
+            .all_warnings()
             .contains(&Warning::Unsupported { points: 1 })
     );
 }
@@ -406,7 +406,7 @@ fn contacts_keep_off_what_weighs_more_than_a_half() {
     let is_light = |it: &SupportPoint| it.at_mm[0] <= 0.0;
     let reach_mm = SupportStrength::Medium.profile().spacing_mm;
     let report = plan(&mut board, &options(true));
-    let spared = report.supported.unwrap();
+    let spared = report.models[0].supported.clone().unwrap();
     assert!(spared.points.len() > 5 && spared.points.iter().all(is_light));
     // What contacts on the other half do not hold is named, and nothing else.
     assert!(spared.unreached.len() > 5);
@@ -417,12 +417,22 @@ fn contacts_keep_off_what_weighs_more_than_a_half() {
         assert!(held.fold(f64::INFINITY, f64::min) >= reach_mm - 0.002);
     }
     let points = spared.unreached.len();
-    assert!(report.warnings.contains(&Warning::Unsupported { points }));
+    assert!(
+        report
+            .all_warnings()
+            .contains(&Warning::Unsupported { points })
+    );
     // Weights alone say nothing about contacts; once they do, a change of them is heard.
-    let anywhere = plan(&mut board, &options(false)).supported.unwrap();
+    let anywhere = plan(&mut board, &options(false)).models[0]
+        .supported
+        .clone()
+        .unwrap();
     assert!(!anywhere.points.iter().all(is_light) && anywhere.unreached.is_empty());
     board.set_weights(Some(vec![0.5; facets])).unwrap();
-    let light = plan(&mut board, &options(true)).supported.unwrap();
+    let light = plan(&mut board, &options(true)).models[0]
+        .supported
+        .clone()
+        .unwrap();
     assert_eq!(light.points, anywhere.points);
 }
 
@@ -464,7 +474,7 @@ fn pixels_and_quality_do_not_prepare_again() {
         report.options.supports.unwrap().strength,
         SupportStrength::Heavy
     );
-    assert!(report.supported.unwrap().points != Vec::new());
+    assert!(report.models[0].supported.clone().unwrap().points != Vec::new());
 }
 
 #[test]

@@ -157,8 +157,8 @@ fn parts_that_slicers_do_not_print_are_subtracted_or_left_out_by_name() {
     let report = pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
     assert_near(report.resin_ml, (400.0 - 20.0) * 10.0 / 1e3, 0.01);
     assert_eq!(report.height_mm, 10.0);
-    let codes = report.warnings.iter().map(Warning::to_string);
-    let said: Vec<String> = codes.take(3).collect();
+    let warnings = report.all_warnings();
+    let said: Vec<String> = warnings.iter().take(3).map(Warning::to_string).collect();
     assert_eq!(
         said,
         [

@@ -64,7 +64,7 @@ fn the_same_model_as_stl_obj_and_3mf_gives_the_same_plan_and_masks() {
         let theirs = [obj(&triangles).into_bytes(), package::of(&triangles)];
         for bytes in theirs {
             let (mut slicer, mut report) = plan(&bytes, &options());
-            report.model.clone_from(&from_stl.model);
+            report.models[0].file.clone_from(&from_stl.models[0].file);
             report.timings_ms = from_stl.timings_ms.clone();
             assert_eq!(report, from_stl, "{name}");
             for layer in 0..report.layers {
@@ -124,7 +124,7 @@ fn a_height_beats_a_unit() {
         },
     );
     assert_eq!(one.z_mm, other.z_mm);
-    assert!(one.warnings.is_empty(), "{:?}", one.warnings);
+    assert!(one.all_warnings().is_empty(), "{:?}", one.all_warnings());
 }
 
 #[test]
@@ -157,9 +157,11 @@ fn a_file_that_states_its_unit_ignores_another() {
         stated: ModelUnit::Millimeter,
         given: ModelUnit::Inch,
     };
-    assert_eq!(given.warnings, [warning]);
-    assert_eq!(plain.warnings, []);
-    plain.warnings.clone_from(&given.warnings);
+    assert_eq!(given.all_warnings(), [warning]);
+    assert_eq!(plain.all_warnings(), []);
+    plain.models[0]
+        .warnings
+        .clone_from(&given.models[0].warnings);
     plain.timings_ms = given.timings_ms.clone();
     assert_eq!(plain, given);
 }
@@ -199,7 +201,7 @@ fn odd_sizes_without_a_unit_are_asked_about() {
     let warnings = |slicer: &mut Slicer, options: &Options| {
         let report = pollster::block_on(slicer.plan(options, &mut quiet)).unwrap();
         report
-            .warnings
+            .all_warnings()
             .iter()
             .any(|it| matches!(it, Warning::OddSize { .. }))
     };

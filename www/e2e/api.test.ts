@@ -97,7 +97,7 @@ test("from a file to a print file: by address, bytes, Blob; whole and in chunks 
       zip: String.fromCharCode(...whole.slice(0, 2)),
     };
   });
-  expect(found).toMatchObject({ schema: 2, names: ["ball.stl", "model.stl"], facets: (ball.length - 84) / 50, same: true, zip: "PK", points: 5 });
+  expect(found).toMatchObject({ schema: 3, names: ["ball.stl", "model.stl"], facets: (ball.length - 84) / 50, same: true, zip: "PK", points: 5 });
   expect(found.layers[0]).toBe(found.layers[1]);
   expect(found.bins[0]).toBe(found.bins[1]);
   expect(["cpu", "gpu"]).toContain(found.backend);
@@ -116,7 +116,7 @@ test("plugs are an STL that can be read, and of no facets without holes", async 
     const stl = await slicer.plugs();
     const { info } = await slicer.load(stl, { name: "plugs.stl" });
     slicer.dispose();
-    return { none: none.length, length: stl.length, facets: info.facets, isClosed: info.closed, holes: report.hollowed?.drains.length };
+    return { none: none.length, length: stl.length, facets: info.facets, isClosed: info.closed, holes: report.models[0]?.hollowed?.drains.length };
   });
   expect(found.holes).toBeGreaterThan(0);
   expect(found.facets).toBeGreaterThan(0);
@@ -242,7 +242,7 @@ test("a search for directions gives the same with any number of workers, and wit
   if (one === undefined) throw new Error("nothing was found");
   for (const other of others) expect(other).toEqual(one);
   expect(one.again).toEqual(one.best);
-  expect(one.schema).toBe(2);
+  expect(one.schema).toBe(3);
   expect(one.known).toBe(one.candidates.length);
   expect(one.candidates.length).toBeGreaterThanOrEqual(50);
   const [first] = one.best;
@@ -297,13 +297,13 @@ test("two models in several copies become one print file, and the masks show eac
     const again = await slicer.plan(options);
     const blocks = await lit(0);
     slicer.dispose();
-    return { count: plates.length, report, print_time_s, resin_ml, both, name: file.name, bytes, again: again.plates[0]?.report.plate, blocks };
+    return { count: plates.length, report, print_time_s, resin_ml, both, name: file.name, bytes, again: again.plates[0]?.report, blocks };
   });
   const { report } = found;
   expect(found.count).toBe(1);
-  expect(report.plate?.models.map(({ copies }) => copies)).toEqual([3, 1]);
-  expect(report.plate?.placements.map(({ model }) => model).toSorted()).toEqual([0, 0, 0, 1]);
-  const [block, ball] = report.plate?.models ?? [];
+  expect(report.models.map(({ copies }) => copies)).toEqual([3, 1]);
+  expect(report.placements.map(({ model }) => model).toSorted((a, b) => a - b)).toEqual([0, 0, 0, 1]);
+  const [block, ball] = report.models;
   // A block of 8 × 8 × 6 mm, a ball of 10 mm, and what their copies share of the time.
   expect(block?.resin_ml).toBeCloseTo(0.384, 6);
   expect(3 * (block?.print_time_s ?? 0) + (ball?.print_time_s ?? 0)).toBeCloseTo(found.print_time_s, 6);
@@ -341,7 +341,7 @@ test("cancelling a plan keeps the models; copies that overlap are told", async (
     const outcome = await cancelled;
     const { plates } = await slicer.plan(options);
     slicer.dispose();
-    return { problems, refused, outcome, copies: plates[0]?.report.plate?.models[0]?.copies };
+    return { problems, refused, outcome, copies: plates[0]?.report.models[0]?.copies };
   });
   expect(found.problems).toEqual([{ code: "plate-collision", detail: { model_numbers: [1, 1], copy_numbers: [1, 2], plate_number: 1 } }]);
   expect(found).toMatchObject({ refused: "plate-collision", outcome: "AbortError", copies: 2 });

@@ -81,11 +81,11 @@ test.skipIf(program === undefined)("the page finds what the command line does", 
     const model = join(folder, mug.name);
     await writeFile(model, mug.bytes);
     const { stdout } = await promisify(execFile)(program ?? "", ["check", model, "--json"]);
-    const told = JSON.parse(stdout) as ModelPrintability;
+    const told = JSON.parse(stdout) as { plates: { models: ModelPrintability[] }[] };
     // As JSON: what is undefined here is null there.
     const plain = ({ verdict, findings, counts, bodies, peel }: Partial<ModelPrintability>): unknown =>
       JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
-    expect(plain(check?.models[0] ?? {})).toEqual(plain(told));
+    expect(plain(check?.models[0] ?? {})).toEqual(plain(told.plates[0]?.models[0] ?? {}));
   } finally {
     await rm(folder, { recursive: true });
   }

@@ -30,10 +30,10 @@ async function opened(query: string, tool: string): Promise<Page> {
 
 /** Where the points of the plan are. */
 const supported = (page: Page): Promise<Triple[]> =>
-  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.supported?.points.map(({ at_mm }) => at_mm) ?? []);
+  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.supported?.points.map(({ at_mm }) => at_mm) ?? []);
 
 const drains = (page: Page): Promise<{ at_mm: Triple; direction: Triple; diameter_mm: number }[]> =>
-  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.hollowed?.drains ?? []);
+  page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.hollowed?.drains ?? []);
 
 const query = (page: Page): URLSearchParams => new URL(page.url()).searchParams;
 
@@ -135,7 +135,7 @@ test("points are placed, chosen, locked and deleted by keyboard; those of a turn
   expect(await page.getByLabel("Diameter (mm)").inputValue()).toBe("0.8");
   await page.keyboard.press("Enter");
   const sizes = (): Promise<(number | null)[] | undefined> =>
-    page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.supported?.points.map(({ contact_mm }) => contact_mm ?? null).sort());
+    page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.supported?.points.map(({ contact_mm }) => contact_mm ?? null).sort());
   await expect.poll(sizes).toEqual([0.8, null]);
   await page.locator("cusp-view .scene").focus();
   await page.keyboard.press("Backspace");

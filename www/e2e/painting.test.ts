@@ -27,7 +27,8 @@ const plan = (page: Page): Promise<Planned> =>
   page.evaluate(() => {
     const result = document.querySelector("cusp-workbench")?.result;
     if (result == null) throw new Error("there is no plan");
-    const { z_mm, bin_mm, weights_crc32: crc32 } = result.report;
+    const { z_mm, bin_mm, models } = result.report;
+    const crc32 = models[0]?.weights_crc32 ?? null;
     return { z_mm, bin_mm, crc32, profile: [...result.profile] };
   });
 

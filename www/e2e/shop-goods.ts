@@ -4,7 +4,7 @@ import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { LIMITS, pricesOf, type PartName } from "../examples/shop/catalogue.js";
 import { FILES } from "../examples/shop/server/upload.js";
-import type { Verified } from "../examples/shop/server/verify.js";
+import { verifiedOf, type Answer, type Verified } from "../examples/shop/server/verify.js";
 import { printer, resin } from "./shop-open.js";
 
 /** The files of an order. */
@@ -27,10 +27,12 @@ export async function goodOf(cusp: string, folder: string, model: Uint8Array, co
   // The exit code is 1 if the model is not printable.
   const call = (...words: string[]): Buffer => spawnSync(cusp, [...words, "--json"], { cwd: folder }).stdout;
   const making = ["slice", FILES.model, "-o", FILES.print, "--printer", printer.name, "--resin", "resin.json", "--tolerance", "0.06"];
-  const plan = call(...making);
+  // The page sends the report of the plate.
+  const { plates } = JSON.parse(call(...making).toString()) as { plates: unknown[] };
+  const plan = Buffer.from(JSON.stringify(plates[0]));
   await writeFile(join(folder, FILES.plan), plan);
   const terms = ["--limits", "limits.json", "--prices", "prices.json", "--copies", String(copies)];
   const answer = call("verify", FILES.plan, FILES.model, "--print", FILES.print, ...terms);
   const print = await readFile(join(folder, FILES.print));
-  return { files: { plan, model: Buffer.from(model), print }, copies, verified: JSON.parse(answer.toString()) as Verified };
+  return { files: { plan, model: Buffer.from(model), print }, copies, verified: verifiedOf(JSON.parse(answer.toString()) as Answer) };
 }

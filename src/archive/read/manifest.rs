@@ -61,9 +61,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             Value::Null => None,
             options => Some(Stated {
                 pose: pose(options).ok_or_else(|| bad("rotation"))?,
-                copies: manifest["plate"]["placements"]
-                    .as_array()
-                    .map_or(1, Vec::len),
+                copies: manifest["placements"].as_array().map_or(1, Vec::len),
             }),
         },
         findings: Vec::new(),

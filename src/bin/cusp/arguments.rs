@@ -5,9 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::{Args, ValueEnum};
 use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{
-    BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Slicer, Snap,
-};
+use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
@@ -50,19 +48,6 @@ pub struct Slicing {
     pub budget: Budget,
     #[command(flatten)]
     pub choices: Choices,
-}
-
-impl Slicing {
-    /// Loads a model that takes its share of the budget, of which `workers` take some at a time.
-    pub fn load(
-        &self,
-        model: &Path,
-        settings: &Settings,
-        workers: usize,
-    ) -> Result<Slicer, Failure> {
-        let slicer = settings.reading.load(model)?;
-        Ok(self.budget.bound(slicer, workers))
-    }
 }
 
 /// A model, and how it would be sliced.

@@ -7,7 +7,7 @@ use std::sync::mpsc::{self, Sender};
 use std::sync::{Condvar, Mutex, PoisonError};
 use std::thread;
 
-use cusp_slicer::job::{MeshInfo, Report, Stage};
+use cusp_slicer::job::{JobReport, MeshInfo, Stage};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
@@ -25,7 +25,7 @@ pub trait Told: Serialize + Send {
     /// A line for people, without the model's name.
     fn line(&self) -> String;
     /// What they should know although it worked.
-    fn warnings(&self) -> &[Warning];
+    fn warnings(&self) -> Vec<Warning>;
 }
 
 /// What a batch prints of a model as JSON: one line.
@@ -307,20 +307,21 @@ pub fn outputs_in(
     Ok(outputs)
 }
 
-impl Told for Report {
+impl Told for JobReport {
     fn line(&self) -> String {
+        let plate = &self.plates[0];
         format!(
             "{} layers, {:.3} mm, {}, {:.1} ml, error {}",
-            self.layers,
-            self.height_mm,
-            crate::terminal::duration(self.print_time_s),
-            self.resin_ml,
-            self.metric.format(self.max_error)
+            plate.layers,
+            plate.height_mm,
+            crate::terminal::duration(plate.print_time_s),
+            plate.resin_ml,
+            plate.metric.format(plate.max_error)
         )
     }
 
-    fn warnings(&self) -> &[Warning] {
-        &self.warnings
+    fn warnings(&self) -> Vec<Warning> {
+        self.plates[0].all_warnings()
     }
 }
 
@@ -335,7 +336,7 @@ impl Told for MeshInfo {
         )
     }
 
-    fn warnings(&self) -> &[Warning] {
-        &self.warnings
+    fn warnings(&self) -> Vec<Warning> {
+        self.warnings.clone()
     }
 }

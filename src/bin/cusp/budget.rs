@@ -5,14 +5,14 @@ use std::sync::OnceLock;
 
 use bytesize::ByteSize;
 use clap::Args;
-use cusp_slicer::job::{Job, Slicer};
+use cusp_slicer::job::Job;
 
 use crate::values::positive;
 #[cfg(target_os = "linux")]
 use crate::watch::memory_taken_bytes;
 
 /// Bounds of a command.
-#[derive(Debug, Clone, Copy, Args)]
+#[derive(Debug, Clone, Copy, Default, Args)]
 pub struct Budget {
     /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found anew, and files stay the same
     #[arg(long, value_name = "SIZE")]
@@ -41,26 +41,15 @@ impl Budget {
         self.max_cpu_time
     }
 
-    /// A slicer with its share, of which `workers` take some at a time.
-    pub fn bound(&self, mut slicer: Slicer, workers: usize) -> Slicer {
+    /// A job with its share, of which `workers` take some at a time.
+    pub fn bound(&self, mut job: Job, workers: usize) -> Job {
         if let Some(bytes) = self.memory_bytes() {
-            slicer = slicer.with_memory(bytes / workers as u64);
+            job = job.with_memory(bytes / workers as u64);
         }
         if let Some(seconds) = self.max_cpu_time {
-            slicer = slicer.with_cpu_time(seconds);
+            job = job.with_cpu_time(seconds);
         }
-        slicer
-    }
-
-    /// A plate that keeps to it.
-    pub fn bound_plate(&self, mut plate: Job) -> Job {
-        if let Some(bytes) = self.memory_bytes() {
-            plate = plate.with_memory(bytes);
-        }
-        if let Some(seconds) = self.max_cpu_time {
-            plate = plate.with_cpu_time(seconds);
-        }
-        plate
+        job
     }
 }
 

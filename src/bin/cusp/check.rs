@@ -8,31 +8,40 @@ use cusp_slicer::inspect::{Finding, Limits, Printability, Severity, Verdict};
 use cusp_slicer::job::{PlatePrintability, Report};
 use serde::Serialize;
 
-use crate::arguments::Studying;
+use crate::arguments::Choices;
+use crate::batch::check_inputs;
+use crate::budget::Budget;
 use crate::files::{Failure, in_file, read_json};
-use crate::job_file::{JobFile, job_file, read_job};
+use crate::job::LoadedJob;
 use crate::plate::Places;
-use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, warn};
+use crate::terminal::{Bar, print, print_json};
 use crate::watch::stop_on_interrupt;
 
-/// A model, and what a shop accepts.
+/// Models, and what a shop accepts.
 #[derive(Args)]
 pub struct Checking {
-    #[command(flatten)]
-    pub studying: Studying,
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file
+    #[arg(required = true, value_name = "MODEL[:N]")]
+    models: Vec<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
     /// Thresholds and severities of a shop, as a JSON file
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,
     /// Findings of a kind to show, of which the largest come first
     #[arg(long, value_name = "N", default_value_t = 5)]
     show: usize,
+    #[command(flatten)]
+    places: Places,
+    #[command(flatten)]
+    choices: Choices,
 }
 
-/// The JSON of `check` for the plates of a job.
+/// What `check` prints as JSON.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct CheckedPlates {
+pub struct Checked {
     /// The largest severity of all findings.
     verdict: Verdict,
     /// The findings on each plate.
@@ -53,102 +62,50 @@ struct CheckedPlate {
     height_mm: f64,
 }
 
-/// What `check` prints as JSON.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Checked {
-    /// What was found.
-    #[serde(flatten)]
-    printability: Printability,
-    /// What it was checked by.
-    limits: Limits,
-    /// Number of layers.
-    layers: usize,
-    /// Height of the print.
-    height_mm: f64,
-}
-
+/// Checks each model of each plate.
 pub fn check(checking: &Checking) -> Result<(), Failure> {
-    let Checking { studying, .. } = checking;
-    studying.choices.check("check");
+    let Checking {
+        models,
+        show,
+        places,
+        choices,
+        ..
+    } = checking;
+    choices.check("check");
+    check_inputs("check", models);
     let limits = checking.limits.as_deref().map(read_limits).transpose()?;
     let limits = limits.unwrap_or_default();
-    if let Some(file) = job_file(std::slice::from_ref(&studying.model))? {
-        return check_plates(checking, file, limits);
-    }
-    let settings = studying.choices.settings()?;
-    let mut slicer = settings.reading.load(&studying.model)?;
+    let mut job = LoadedJob::read("check", models, places, choices, &Budget::default())?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let report = make_plan(
-        &mut slicer,
-        &studying.model,
-        &settings.options,
-        &mut progress,
-    )?;
-    let report = report.clone();
-    let printability = slicer
-        .inspect(&limits, &mut progress)
-        .map_err(|error| Failure::in_file(&studying.model, &error))?;
-    drop(bar);
-    warn(&report.warnings);
-    let verdict = printability.verdict;
-    if studying.json {
-        print_json(&Checked {
-            printability,
-            limits,
-            layers: report.layers,
-            height_mm: report.height_mm,
-        })?;
-    } else {
-        print(&describe(&printability, &report, checking.show))?;
-    }
-    if verdict == Verdict::Reject {
-        return Err(Failure::TOLD);
-    }
-    Ok(())
-}
-
-/// Checks each model of each plate of a job.
-fn check_plates(checking: &Checking, file: JobFile, limits: Limits) -> Result<(), Failure> {
-    let Checking { studying, show, .. } = checking;
-    let models = std::slice::from_ref(&studying.model);
-    let mut job = read_job(
-        "check",
-        Some(file),
-        models,
-        &Places::default(),
-        &studying.choices,
-    )?;
-    stop_on_interrupt();
-    let bar = Bar::new();
-    let reports = job.make_plan(&bar)?.plates;
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let mut plates = Vec::new();
-    let mut texts = Vec::new();
-    for (number, report) in reports.iter().enumerate() {
-        let found = job.plate.inspect(number, &limits, &mut progress);
+    let report = job.plan(&mut progress)?;
+    let (mut plates, mut texts) = (Vec::new(), Vec::new());
+    for plate in &report.plates {
+        let found = job.job.inspect(plate.plate, &limits, &mut progress);
         let printability = found.map_err(|error| job.failure(&error))?;
         for model in &printability.models {
-            let name = job.name(model.model);
-            let described = describe(&model.found, report, *show);
-            texts.push(format!("plate {}, {name}\n{described}", number + 1));
+            let described = describe(&model.found, plate, *show);
+            texts.push(match plate.placements[..] {
+                [_] if report.plates.len() == 1 => described,
+                _ => {
+                    let name = job.name(model.model);
+                    format!("plate {}, {name}\n{described}", plate.plate + 1)
+                }
+            });
         }
         plates.push(CheckedPlate {
             printability,
-            layers: report.layers,
-            height_mm: report.height_mm,
+            layers: plate.layers,
+            height_mm: plate.height_mm,
         });
     }
     drop(bar);
-    for report in &reports {
-        warn(&report.warnings);
-    }
+    job.warn(&report);
     let verdicts = plates.iter().map(|plate| plate.printability.verdict);
     let verdict = verdicts.max().unwrap_or(Verdict::Ok);
-    if studying.json {
-        print_json(&CheckedPlates {
+    if checking.json {
+        print_json(&Checked {
             verdict,
             plates,
             limits,

@@ -7,13 +7,14 @@ use clap::Args;
 use cusp_slicer::contour::cli::Cli;
 use cusp_slicer::contour::svg::Svg;
 use cusp_slicer::contour::{Contours, ContoursReport, Heading, Lattice, LayerHeights, cut};
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::Job;
 use cusp_slicer::progress::Cancelled;
 
 use crate::arguments::Studying;
+use crate::budget::Budget;
 use crate::files::{Failure, Output, Writer};
-use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, warn};
+use crate::job::LoadedJob;
+use crate::terminal::{Bar, print, print_json};
 use crate::values::not_negative;
 use crate::watch::stop_on_interrupt;
 
@@ -54,18 +55,16 @@ pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let is_svg = is_svg(output) == Some(true);
     let output = Output::new(output, Some(model), "model")?;
     let settings = studying.choices.settings()?;
-    let mut slicer = settings.reading.load(model)?;
+    let mut job = LoadedJob::alone(model, &settings, &Budget::default(), 1)?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let (warnings, report) = output.write(|writer| {
-        let mut progress = |stage, fraction| bar.report(stage, fraction);
-        let plan = make_plan(&mut slicer, model, &settings.options, &mut progress)?;
-        let warnings = plan.warnings.clone();
-        let (writer, report) = write(contouring, &slicer, &output, is_svg, writer, &bar)?;
-        Ok((writer, (warnings, report)))
+    let (plan, report) = output.write(|writer| {
+        let plan = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
+        let (writer, report) = write(contouring, &job.job, &output, is_svg, writer, &bar)?;
+        Ok((writer, (plan, report)))
     })?;
     drop(bar);
-    warn(&warnings);
+    job.warn(&plan);
     if studying.json {
         return Ok(print_json(&report)?);
     }
@@ -79,16 +78,17 @@ pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
 
 fn write(
     contouring: &Contouring,
-    slicer: &Slicer,
+    job: &Job,
     output: &Output<'_>,
     is_svg: bool,
     writer: Writer,
     bar: &Bar,
 ) -> Result<(Writer, ContoursReport), Failure> {
     let model = &contouring.studying.model;
-    let (mesh, plan) = slicer
-        .planned()
+    let (meshes, plan) = job
+        .planned(0)
         .map_err(|error| Failure::in_file(model, &error))?;
+    let mesh = meshes[0];
     let (bounds, layers) = (mesh.bounds(), LayerHeights::of(plan));
     let lattice = Lattice::of(&bounds);
     let title = model.file_name().unwrap_or_default().to_string_lossy();

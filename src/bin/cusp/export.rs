@@ -3,7 +3,7 @@
 use std::path::Path;
 
 use cusp_slicer::archive::layer_profile;
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::Job;
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 use stl_io::{Normal, Triangle, Vertex};
@@ -11,8 +11,8 @@ use stl_io::{Normal, Triangle, Vertex};
 use crate::files::{Failure, Output, in_file};
 
 /// Writes the mesh of the last plan with its voids and supports, as 3MF if the file is named so, or else as STL.
-pub fn export(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
-    let Some(mesh) = slicer.prepared() else {
+pub fn export(job: &Job, file: &Path) -> Result<(), Failure> {
+    let Ok(Some(mesh)) = job.prepared_mesh(0) else {
         return Err(in_file(file, &"there is no plan").into());
     };
     let output = Output::new(file, None, "model")?;
@@ -28,8 +28,8 @@ pub fn export(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
 }
 
 /// Writes a plug for each drain hole of the last plan.
-pub fn export_plugs(slicer: &Slicer, file: &Path) -> Result<(), Failure> {
-    let Some(plugs) = slicer.plugs() else {
+pub fn export_plugs(job: &Job, file: &Path) -> Result<(), Failure> {
+    let Ok(Some(plugs)) = job.plugs(0) else {
         return Err(in_file(
             file,
             &"there are no drain holes to plug; make some by --drain",

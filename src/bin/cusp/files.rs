@@ -6,7 +6,7 @@ use std::io::{self, BufWriter, Read as _, Write};
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::Error;
-use cusp_slicer::job::Slicer;
+use cusp_slicer::job::LoadedModel;
 use cusp_slicer::misnamed::with_nearest;
 use cusp_slicer::model::read::{HEAD_BYTES, ReadOptions, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
@@ -198,17 +198,17 @@ pub struct Reading {
 
 impl Reading {
     /// Reads a model and applies weights.
-    pub fn load(&self, model: &Path) -> Result<Slicer, Failure> {
-        let mut slicer = load(model, &self.options)?;
+    pub fn load(&self, model: &Path) -> Result<LoadedModel, Failure> {
+        let mut loaded = load(model, &self.options)?;
         if let Some(weights) = &self.weights {
-            weights.paint(&mut slicer, model)?;
+            weights.paint(&mut loaded, model)?;
         }
-        Ok(slicer)
+        Ok(loaded)
     }
 }
 
 /// Reads a model. A file that is none is refused by its first bytes.
-pub fn load(model: &Path, options: &ReadOptions) -> Result<Slicer, Failure> {
+pub fn load(model: &Path, options: &ReadOptions) -> Result<LoadedModel, Failure> {
     if !is_standard(model) {
         let head = head_of(model).map_err(|error| in_file(model, &error))?;
         if let Some((head, length)) = head {
@@ -217,7 +217,7 @@ pub fn load(model: &Path, options: &ReadOptions) -> Result<Slicer, Failure> {
         }
     }
     let bytes = read(model)?;
-    Slicer::load_with(&bytes, options).map_err(|error| Failure::in_file(model, &error))
+    LoadedModel::read_with(&bytes, options).map_err(|error| Failure::in_file(model, &error))
 }
 
 /// The first bytes and the length of a regular file. A pipe can be opened only once.
@@ -251,11 +251,11 @@ impl WeightsFile {
         })
     }
 
-    /// Applies these weights to the facets of the slicer's `model`.
-    pub fn paint(&self, slicer: &mut Slicer, model: &Path) -> Result<(), Failure> {
-        let weights = weights::from_bytes(&self.bytes, &slicer.positions());
+    /// Applies these weights to the facets of the model of a file.
+    pub fn paint(&self, loaded: &mut LoadedModel, model: &Path) -> Result<(), Failure> {
+        let weights = weights::from_bytes(&self.bytes, &loaded.positions());
         let painted = weights.map_err(Error::from);
-        let painted = painted.and_then(|weights| slicer.set_weights(Some(weights)));
+        let painted = painted.and_then(|weights| loaded.set_weights(Some(weights)));
         painted.map_err(|error| Failure {
             message: Some(in_file(model, &in_file(&self.path, &error))),
             ..Failure::in_file(model, &error)

@@ -3,18 +3,15 @@
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{self, JobOptions, ModelOptions, Options, Placement};
+use cusp_slicer::job::{LoadedModel, ModelOptions, Options, Placement};
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use serde::{Deserialize, Serialize};
 
-use crate::arguments::Choices;
 use crate::files::{Failure, Reading, WeightsFile, is_standard, read_json};
-use crate::plate::Places;
-use crate::usage::wrong_usage;
 
 /// A job file: models, options and places. Paths are relative to the file.
-#[derive(Serialize, Deserialize)]
+#[derive(Default, Serialize, Deserialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 #[serde(deny_unknown_fields)]
 pub struct JobFile {
@@ -72,9 +69,12 @@ fn one() -> usize {
 }
 
 impl JobModel {
-    pub fn new(file: PathBuf, copies: usize) -> Self {
+    pub fn new(file: PathBuf, copies: usize, reading: &ReadOptions) -> Self {
         Self {
             file,
+            plate: reading.plate_number,
+            surfaces: reading.surfaces,
+            curved_caps: reading.curved_caps,
             ..Self::of(&ModelOptions {
                 copies,
                 ..ModelOptions::default()
@@ -98,7 +98,7 @@ impl JobModel {
         }
     }
 
-    fn own(&self) -> ModelOptions {
+    pub fn own(&self) -> ModelOptions {
         ModelOptions {
             copies: self.copies,
             rotation: self.rotation,
@@ -109,102 +109,51 @@ impl JobModel {
     }
 }
 
-/// Models that are read, and what to do with them.
-pub struct Job {
-    pub paths: Vec<PathBuf>,
-    /// The file of weights of each model, if it has one.
-    pub weights: Vec<Option<PathBuf>>,
-    pub plate: job::Job,
-    pub options: JobOptions,
-}
-
-/// The job file, if the only argument is one: JSON, by its content.
-pub fn job_file(models: &[PathBuf]) -> Result<Option<JobFile>, Failure> {
-    let [path] = models else {
-        return Ok(None);
-    };
-    let is_json = path
-        .extension()
-        .is_some_and(|end| end.eq_ignore_ascii_case("json"));
-    if is_standard(path) || !is_json {
-        return Ok(None);
-    }
-    read_json(path).map(Some)
-}
-
-pub fn read_job(
-    command: &str,
-    file: Option<JobFile>,
-    models: &[PathBuf],
-    places: &Places,
-    choices: &Choices,
-) -> Result<Job, Failure> {
-    let copies = places.copies.map_or(1, |copies| copies as usize);
-    let folder = file.is_some().then(|| models[0].parent()).flatten();
-    let file = file.unwrap_or_else(|| {
-        let models = models.iter().map(|model| {
-            let (file, own) = with_copies(model);
-            JobModel::new(file, own.unwrap_or(copies))
-        });
-        JobFile {
-            models: models.collect(),
-            options: Options::default(),
-            arranging: Arranging::default(),
-            placements: Vec::new(),
-        }
-    });
-    let settings = choices.settings_over(file.options.clone())?;
-    if settings.reading.weights.is_some() {
-        let message = "weights belong to a model: name them beside it in a job file";
-        wrong_usage(command, message);
-    }
-    let read = file.read_models(folder)?;
-    Ok(Job {
-        paths: read.paths,
-        weights: read.weights,
-        plate: read.plate,
-        options: JobOptions {
-            options: settings.options,
-            models: file.models.iter().map(JobModel::own).collect(),
-            arranging: places.arranging(file.arranging),
-            placements: file.placements,
-        },
-    })
-}
-
-/// The models of a job file.
-pub struct JobModels {
-    pub paths: Vec<PathBuf>,
-    pub weights: Vec<Option<PathBuf>>,
-    pub plate: job::Job,
-}
-
 impl JobFile {
+    /// The job file, if the only argument is one: JSON, by its name.
+    pub fn of(models: &[PathBuf]) -> Result<Option<Self>, Failure> {
+        let [path] = models else {
+            return Ok(None);
+        };
+        let is_json = path
+            .extension()
+            .is_some_and(|end| end.eq_ignore_ascii_case("json"));
+        if is_standard(path) || !is_json {
+            return Ok(None);
+        }
+        read_json(path).map(Some)
+    }
+
     /// Reads all models, whose paths are relative to this folder.
-    pub fn read_models(&self, folder: Option<&Path>) -> Result<JobModels, Failure> {
+    pub fn read_models(&self, folder: Option<&Path>) -> Result<LoadedModels, Failure> {
         let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
-        let (mut paths, mut weights, mut plate) = (Vec::new(), Vec::new(), job::Job::default());
+        let mut read = LoadedModels::default();
         for model in &self.models {
             let path = within(&model.file);
-            let painted = model.weights.as_deref().map(within);
+            let weights = model.weights.as_deref().map(within);
             let reading = Reading {
-                weights: painted.as_deref().map(WeightsFile::read).transpose()?,
+                weights: weights.as_deref().map(WeightsFile::read).transpose()?,
                 options: ReadOptions {
                     plate_number: model.plate,
                     surfaces: model.surfaces,
                     curved_caps: model.curved_caps,
                 },
             };
-            plate.add(reading.load(&path)?.into_model());
-            weights.push(painted);
-            paths.push(path);
+            read.models.push(reading.load(&path)?);
+            read.weights.push(weights);
+            read.paths.push(path);
         }
-        Ok(JobModels {
-            paths,
-            weights,
-            plate,
-        })
+        Ok(read)
     }
+}
+
+/// The models of a job file.
+#[derive(Default)]
+pub struct LoadedModels {
+    pub models: Vec<LoadedModel>,
+    pub paths: Vec<PathBuf>,
+    /// The file of weights of each, if it has one.
+    pub weights: Vec<Option<PathBuf>>,
 }
 
 /// A model and its number of copies: `part.stl:3`, unless there is a file of that name.

@@ -11,6 +11,7 @@ mod convert;
 mod export;
 mod files;
 mod inspect;
+mod job;
 mod job_file;
 mod models;
 mod orient;

@@ -65,16 +65,16 @@ pub struct Weighed {
 pub fn saliency(model: &Path, output: &Path, json: bool) -> Result<(), Failure> {
     check_json("saliency", Some(output), json);
     let output = Output::new(output, Some(model), "model")?;
-    let mut slicer = load(model, &ReadOptions::default())?;
+    let mut loaded = load(model, &ReadOptions::default())?;
     stop_on_interrupt();
     let facets = output.write(|mut writer| {
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
-        let saliency = slicer
+        let saliency = loaded
             .saliency(&mut progress)
             .map_err(|error| Failure::in_file(model, &error))?
             .to_vec();
-        let written = writer.write_all(&weights::to_bytes(&saliency, &slicer.positions()));
+        let written = writer.write_all(&weights::to_bytes(&saliency, &loaded.positions()));
         written.map_err(|error| output.failed(&error))?;
         Ok((writer, saliency.len()))
     })?;

@@ -5,7 +5,7 @@ use std::fs;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use cusp_slicer::job::{Options, OrientationPart, OrientationReport, Slicer};
+use cusp_slicer::job::{LoadedModel, Options, OrientationPart, OrientationReport};
 use cusp_slicer::model::Pose;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{
@@ -152,21 +152,21 @@ impl Task<'_> {
     /// The text to print for a model.
     fn answer(&self, orienting: &Orienting, model: &Path) -> Result<String, Failure> {
         let options = &self.options;
-        let mut slicer = self.reading.load(model)?;
+        let mut loaded = self.reading.load(model)?;
         let bar = Bar::new();
         let mut progress = |stage, fraction| bar.report(stage, fraction);
         let search = orienting.search();
         if let Some(shard) = orienting.shard {
-            let part = slicer.measure_shard(options, &search, shard, &mut progress);
+            let part = loaded.measure_shard(options, &search, shard, &mut progress);
             return Ok(to_json(
                 &part.map_err(|error| Failure::in_file(model, &error))?,
             )?);
         }
         let found = if orienting.merge.is_empty() {
-            slicer.orient(options, &search, &mut progress)
+            loaded.orient(options, &search, &mut progress)
         } else {
-            let merged = slicer.merge_shards(options, &search, &self.parts);
-            merged.and_then(|search| slicer.finish_search(options, search, &mut progress))
+            let merged = loaded.merge_shards(options, &search, &self.parts);
+            merged.and_then(|search| loaded.finish_search(options, search, &mut progress))
         };
         let found = found.map_err(|error| Failure::in_file(model, &error))?;
         if let (Some(number), Some(output)) = (orienting.apply, &self.target) {
@@ -174,7 +174,7 @@ impl Task<'_> {
                 let reason = format!("only {} orientations were found", found.best.len());
                 in_file(model, &reason)
             })?;
-            apply(&slicer, options, candidate, output)?;
+            apply(&loaded, options, candidate, output)?;
         }
         if orienting.json {
             Ok(to_json(&found)?)
@@ -198,7 +198,7 @@ fn read_parts(orienting: &Orienting) -> Result<Vec<OrientationPart>, Failure> {
 
 /// Writes the model, oriented and on the plate, as a binary STL.
 fn apply(
-    slicer: &Slicer,
+    loaded: &LoadedModel,
     options: &Options,
     candidate: &Candidate,
     output: &Output<'_>,
@@ -208,7 +208,7 @@ fn apply(
         height_mm: options.height_mm.map(|_| candidate.size_mm[2]),
         unit: options.unit,
     };
-    let corners = slicer.positions_on_plate(&pose);
+    let corners = loaded.positions_on_plate(&pose);
     let corners = corners.map_err(|error| output.failure(&error))?;
     let (facets, _) = corners.as_chunks::<9>();
     let facets = facets

@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use cusp_slicer::job::Report;
 use cusp_slicer::price::{Price, PriceItem, Prices};
 use serde::Serialize;
 
@@ -12,10 +11,9 @@ use crate::arguments::Choices;
 use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::files::{Failure, in_file, read_json};
-use crate::job_file::{JobFile, job_file, read_job, with_copies};
+use crate::job::LoadedJob;
 use crate::plate::Places;
-use crate::slice::make_plan;
-use crate::terminal::{Bar, print, print_json, warn};
+use crate::terminal::{Bar, print, print_json};
 use crate::watch::{keep_within, stop_on_interrupt};
 
 /// Models, and the prices of a shop.
@@ -90,53 +88,25 @@ pub fn price(pricing: &Pricing) -> Result<(), Failure> {
     pricing.choices.check("price");
     check_inputs("price", &pricing.models);
     let order = Order::read(&pricing.prices, pricing.finish.as_deref())?;
-    let file = job_file(&pricing.models)?;
-    let plates = match (&pricing.models[..], &file) {
-        ([model], None) if pricing.copies_of(model) == 1 => vec![pricing.plan_alone(model)?],
-        _ => pricing.plan_plates(file)?,
-    };
-    for plate in &plates {
-        warn(&plate.warnings);
-    }
-    let items = plates.iter().flat_map(|plate| plate.price_items(1));
-    let items: Vec<PriceItem> = items.collect();
+    let (models, places, choices) = (&pricing.models, &pricing.places, &pricing.choices);
+    let mut job = LoadedJob::read("price", models, places, choices, &pricing.budget)?;
+    stop_on_interrupt();
+    let bar = Bar::new();
+    let report = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
+    drop(bar);
+    job.warn(&report);
+    let items = report.price_items();
     let priced = Priced {
         price: order.price(&items)?,
         items,
-        plates: plates.len(),
-        print_time_s: plates.iter().map(|plate| plate.print_time_s).sum(),
-        resin_ml: plates.iter().map(|plate| plate.resin_ml).sum(),
+        plates: report.plates.len(),
+        print_time_s: report.print_time_s,
+        resin_ml: report.resin_ml,
     };
     if pricing.json {
         return Ok(print_json(&priced)?);
     }
     Ok(print(&describe(&priced))?)
-}
-
-impl Pricing {
-    fn copies_of(&self, model: &Path) -> usize {
-        let all = self.places.copies.map_or(1, |copies| copies as usize);
-        with_copies(model).1.unwrap_or(all)
-    }
-
-    /// Plans one copy, which needs to know no plate.
-    fn plan_alone(&self, model: &Path) -> Result<Report, Failure> {
-        let (model, _) = with_copies(model);
-        let settings = self.choices.settings()?;
-        let slicer = settings.reading.load(&model)?;
-        let mut slicer = self.budget.bound(slicer, 1);
-        stop_on_interrupt();
-        let bar = Bar::new();
-        let mut progress = |stage, fraction| bar.report(stage, fraction);
-        make_plan(&mut slicer, &model, &settings.options, &mut progress).cloned()
-    }
-
-    fn plan_plates(&self, file: Option<JobFile>) -> Result<Vec<Report>, Failure> {
-        let mut job = read_job("price", file, &self.models, &self.places, &self.choices)?;
-        job.plate = self.budget.bound_plate(std::mem::take(&mut job.plate));
-        stop_on_interrupt();
-        Ok(job.make_plan(&Bar::new())?.plates)
-    }
 }
 
 fn describe(priced: &Priced) -> String {

@@ -17,14 +17,14 @@ use serde_json::{Value, json};
 
 use crate::batch::BatchLine;
 use crate::calibrate::Calibrated;
-use crate::check::{Checked, CheckedPlates};
+use crate::check::Checked;
 use crate::convert::Converted;
 use crate::files::Failed;
 use crate::job_file::JobFile;
 use crate::models::Weighed;
 use crate::price::Priced;
 use crate::slice::Compared;
-use crate::verify::{Verified, VerifiedPlates};
+use crate::verify::Verified;
 
 /// Draft 7, which most validators know.
 fn generator() -> SchemaGenerator {
@@ -112,9 +112,8 @@ fn the_schemas_of_reports_are_recorded() {
     let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schemas");
     let schemas = [
         ("batch-info", output::<BatchLine<MeshInfo>>()),
-        ("batch-plan", output::<BatchLine<Report>>()),
+        ("batch-plan", output::<BatchLine<JobReport>>()),
         ("calibrate", output::<Calibrated>()),
-        ("check-plates", output::<CheckedPlates>()),
         ("check", output::<Checked>()),
         ("compare", output::<Compared>()),
         ("contours", output::<ContoursReport>()),
@@ -125,9 +124,8 @@ fn the_schemas_of_reports_are_recorded() {
         ("limits", input::<Limits>()),
         ("manifest", manifest()),
         ("orient", output::<OrientationReport>()),
-        ("plan", output::<Report>()),
+        ("plan", output::<JobReport>()),
         ("plate", input::<JobFile>()),
-        ("plates", output::<JobReport>()),
         ("price", output::<Priced>()),
         ("prices", input::<Prices>()),
         ("printer", input::<Printer>()),
@@ -137,7 +135,6 @@ fn the_schemas_of_reports_are_recorded() {
         ("settings", settings()),
         ("simulate", output::<Simulation>()),
         ("tradeoff", output::<Tradeoff>()),
-        ("verify-plates", output::<VerifiedPlates>()),
         ("verify", output::<Verified>()),
     ];
     let mut names: Vec<String> = Vec::new();

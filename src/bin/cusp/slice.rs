@@ -1,22 +1,25 @@
 //! Plans and print files.
 
 use std::fmt::Write as _;
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use cusp_slicer::filament::FilamentReport;
 use cusp_slicer::job::{
-    Backend, BestUniform, Comparison, FrontPoint, Options, PlannerReport, Report, Slicer,
-    StageProgress,
+    Backend, BestUniform, Comparison, FrontPoint, Job, JobOptions, JobReport, Options,
+    PlannerReport, Report, StageProgress,
 };
 use cusp_slicer::profile::Metric;
 use serde::Serialize;
 
 use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
+use crate::budget::Budget;
 use crate::export::{export, export_plugs};
-use crate::files::{Failure, Output, is_folder, make_folder};
-use crate::plate;
-use crate::terminal::{Bar, duration, open_gpu, print, print_json, warn};
+use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder};
+use crate::job::LoadedJob;
+use crate::job_file::JobFile;
+use crate::plate::Places;
+use crate::terminal::{Bar, duration, open_gpu, print, print_json};
 use crate::usage::{check_json, wrong_usage};
 use crate::watch::{keep_within, stop_on_interrupt};
 
@@ -25,27 +28,41 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
     check_meshes("slice", slicing);
-    if let Some(job) = plate::job("slice", slicing)? {
-        return plate::slice(job, slicing, output);
-    }
-    if is_folder(output) {
+    let is_plate = slicing.is_plate("slice")?;
+    if !is_plate && is_folder(output) {
         return slice_all(slicing, output);
     }
-    let [model] = &*slicing.models else {
+    if !is_plate && slicing.models.len() > 1 {
         let message = "several models become a print file each, in a folder: -o prints/; or one in all: --arrange";
         wrong_usage("slice", message);
-    };
+    }
     check_json("slice", Some(output), slicing.json);
-    let output = Output::new(output, Some(model), "model")?;
-    let settings = slicing.choices.settings()?;
-    let mut slicer = slicing.load(model, &settings, 1)?;
+    // What cannot be written is said before anything is planned.
+    let [first, ..] = &*slicing.models else {
+        return Ok(());
+    };
+    let file = (!is_folder(output)).then(|| Output::new(output, Some(first), "model"));
+    let file = file.transpose()?;
+    let mut job = slicing.read("slice")?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let report = slice_one(&mut slicer, model, &settings, &output, &mut progress)?;
+    let mut report = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
+    let files = match file {
+        Some(_) if report.plates.len() == 1 => Vec::new(),
+        _ => files_of(&job, output, report.plates.len())?,
+    };
+    let further = files.iter().map(|file| Output::new(file, None, "model"));
+    let outputs = match file {
+        Some(file) if files.is_empty() => vec![file],
+        _ => further.collect::<Result<_, _>>()?,
+    };
+    for (plate, output) in outputs.iter().enumerate() {
+        let mut progress = |stage, fraction| bar.report(stage, fraction);
+        report.plates[plate] = write_plate(&mut job.job, plate, output, &mut progress)?;
+    }
     drop(bar);
-    write_meshes(slicing, &slicer)?;
-    show(slicing, &report)
+    write_meshes(slicing, &job)?;
+    show(slicing, &job, &report)
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
@@ -53,42 +70,95 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
     check_meshes("plan", slicing);
-    if let Some(job) = plate::job("plan", slicing)? {
-        return plate::plan(job, slicing);
-    }
-    let [model] = &*slicing.models else {
+    if !slicing.is_plate("plan")? && slicing.models.len() > 1 {
         return plan_all(slicing);
-    };
-    let settings = slicing.choices.settings()?;
-    let mut slicer = slicing.load(model, &settings, 1)?;
+    }
+    let mut job = slicing.read("plan")?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let report = make_plan(&mut slicer, model, &settings.options, &mut progress)?.clone();
+    let report = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
     drop(bar);
-    write_meshes(slicing, &slicer)?;
-    show(slicing, &report)
+    write_meshes(slicing, &job)?;
+    show(slicing, &job, &report)
+}
+
+impl Slicing {
+    /// Whether the models stand on plates: those that are arranged, or those of a job file.
+    fn is_plate(&self, command: &str) -> Result<bool, Failure> {
+        let is_file = JobFile::of(&self.models)?.is_some();
+        if !is_file && !self.arrange && self.places.are_given() {
+            let message = "--copies, --spacing and --turn are for plates: add --arrange";
+            wrong_usage(command, message);
+        }
+        Ok(is_file || self.arrange)
+    }
+
+    fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
+        let (places, choices) = (&self.places, &self.choices);
+        let mut job = LoadedJob::read(command, &self.models, places, choices, &self.budget)?;
+        if self.arrange {
+            job.arrange()?;
+        }
+        Ok(job)
+    }
+}
+
+/// Writes the print file of a plate. Returns the report with the time that this took.
+fn write_plate(
+    job: &mut Job,
+    plate: usize,
+    output: &Output<'_>,
+    progress: &mut StageProgress<'_>,
+) -> Result<Report, Failure> {
+    output.write(|writer| {
+        let written = job.write_archive(plate, writer, progress);
+        let (writer, report) = written.map_err(|error| output.failure(&error))?;
+        Ok((writer, report.clone()))
+    })
+}
+
+/// The print file of each plate. Those of several have their number in the name.
+fn files_of(job: &LoadedJob, output: &Path, plates: usize) -> Result<Vec<PathBuf>, Failure> {
+    let numbered = |folder: &Path, stem: &str, end: &str| {
+        let name = |number| folder.join(format!("{stem}-{number}.{end}"));
+        (1..=plates).map(name).collect()
+    };
+    if is_folder(output) {
+        let print_file = job.options.options.print_file();
+        let print_file = print_file.map_err(|error| job.failure(&error))?;
+        make_folder(output)?;
+        return Ok(numbered(output, "plate", &print_file.extension));
+    }
+    if is_standard(output) {
+        let reason = format!("{plates} plates are as many print files; name a folder by -o");
+        return Err(in_file(output, &reason).into());
+    }
+    let part =
+        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, end) = (part(output.file_stem()), part(output.extension()));
+    let folder = output.parent().unwrap_or(Path::new(""));
+    Ok(numbered(folder, &stem, &end))
 }
 
 /// Meshes are written of one model.
 fn check_meshes(command: &str, slicing: &Slicing) {
-    if slicing.models.len() < 2 && !slicing.arrange {
+    if slicing.models.len() < 2 {
         return;
     }
     for (file, option) in [(&slicing.export, "--export"), (&slicing.plugs, "--plugs")] {
         if file.is_some() {
-            let message = format!("{option} is of one model: name one, without --arrange");
+            let message = format!("{option} is of one model: name one");
             wrong_usage(command, &message);
         }
     }
 }
 
-fn write_meshes(slicing: &Slicing, slicer: &Slicer) -> Result<(), Failure> {
+fn write_meshes(slicing: &Slicing, job: &LoadedJob) -> Result<(), Failure> {
     if let Some(file) = &slicing.export {
-        export(slicer, file)?;
+        export(&job.job, file)?;
     }
     if let Some(file) = &slicing.plugs {
-        export_plugs(slicer, file)?;
+        export_plugs(&job.job, file)?;
     }
     Ok(())
 }
@@ -108,22 +178,25 @@ fn slice_all(slicing: &Slicing, folder: &Path) -> Result<(), Failure> {
     let outputs = outputs.map(|(output, model)| Output::new(output, Some(model), "model"));
     let outputs = outputs.collect::<Result<Vec<_>, _>>()?;
     batch.run(|place, progress| {
-        let model = &batch.models[place];
-        let mut slicer = slicing.load(model, &settings, batch.at_a_time())?;
-        slice_one(&mut slicer, model, &settings, &outputs[place], progress)
+        let (model, workers) = (&batch.models[place], batch.at_a_time());
+        let mut job = LoadedJob::alone(model, &settings, &slicing.budget, workers)?;
+        let mut report = job.plan(progress)?;
+        report.plates[0] = write_plate(&mut job.job, 0, &outputs[place], progress)?;
+        Ok(report)
     })
 }
 
 /// Plans each model.
 fn plan_all(slicing: &Slicing) -> Result<(), Failure> {
     let settings = slicing.choices.settings()?;
-    let options = &settings.options;
-    options.check().map_err(|error| error.to_string())?;
+    settings
+        .options
+        .check()
+        .map_err(|error| error.to_string())?;
     let batch = batch_of(slicing, &settings);
     batch.run(|place, progress| {
-        let model = &batch.models[place];
-        let mut slicer = slicing.load(model, &settings, batch.at_a_time())?;
-        make_plan(&mut slicer, model, options, progress).cloned()
+        let (model, workers) = (&batch.models[place], batch.at_a_time());
+        LoadedJob::alone(model, &settings, &slicing.budget, workers)?.plan(progress)
     })
 }
 
@@ -140,42 +213,50 @@ fn batch_of<'a>(slicing: &'a Slicing, settings: &Settings) -> Batch<'a> {
     }
 }
 
-/// Plans a model and writes its print file.
-fn slice_one(
-    slicer: &mut Slicer,
-    model: &Path,
-    settings: &Settings,
-    output: &Output<'_>,
-    progress: &mut StageProgress<'_>,
-) -> Result<Report, Failure> {
-    output.write(|writer| {
-        make_plan(slicer, model, &settings.options, progress)?;
-        let written = slicer.write_archive(writer, progress);
-        let (writer, report) = written.map_err(|error| output.failure(&error))?;
-        Ok((writer, report.clone()))
-    })
-}
-
-/// Makes the plan that the options ask for.
-pub fn make_plan<'a>(
-    slicer: &'a mut Slicer,
-    model: &Path,
-    options: &Options,
-    progress: &mut StageProgress<'_>,
-) -> Result<&'a Report, Failure> {
-    open_gpu(slicer, options.backend);
-    pollster::block_on(slicer.plan(options, progress))
-        .map_err(|error| Failure::in_file(model, &error))
-}
-
-fn show(slicing: &Slicing, report: &Report) -> Result<(), Failure> {
-    warn(&report.warnings);
+fn show(slicing: &Slicing, job: &LoadedJob, report: &JobReport) -> Result<(), Failure> {
+    job.warn(report);
     if slicing.json {
-        print_json(report)?;
-    } else {
-        print(&describe_plan(report))?;
+        return Ok(print_json(report)?);
     }
-    Ok(())
+    let is_alone = report.plates.len() == 1 && report.plates[0].placements.len() == 1;
+    if is_alone && !slicing.arrange {
+        return Ok(print(&describe_plan(&report.plates[0]))?);
+    }
+    Ok(print(&describe_plates(job, report))?)
+}
+
+fn describe_plates(job: &LoadedJob, report: &JobReport) -> String {
+    let mut text = String::new();
+    for plate in &report.plates {
+        let _ = writeln!(
+            text,
+            "plate {} of {}: {} layers, {:.3} mm, {}, {:.1} ml of resin",
+            plate.plate + 1,
+            plate.plate_count,
+            plate.layers,
+            plate.height_mm,
+            duration(plate.print_time_s),
+            plate.resin_ml,
+        );
+        for model in &plate.models {
+            let _ = writeln!(
+                text,
+                "  {} × {}: {} and {:.1} ml each, error {}",
+                model.copies,
+                job.name(model.model),
+                duration(model.print_time_s),
+                model.resin_ml,
+                plate.metric.format(model.max_error),
+            );
+        }
+    }
+    let _ = write!(
+        text,
+        "in all {}, {:.1} ml of resin",
+        duration(report.print_time_s),
+        report.resin_ml
+    );
+    text
 }
 
 fn describe_plan(report: &Report) -> String {
@@ -204,7 +285,7 @@ fn describe_filament(report: &Report, filament: &FilamentReport) -> String {
         words(report.tolerance),
         Metric::Deviation.format(report.max_deviation_mm),
         report.snapped_mm.len(),
-        report.hits,
+        hits(report),
         report.adapter.as_deref().unwrap_or("the CPU"),
         report.timings_ms.total,
     )
@@ -244,6 +325,10 @@ fn describe_uniform(report: &Report) -> String {
     )
 }
 
+fn hits(report: &Report) -> usize {
+    report.models.iter().map(|model| model.hits).sum()
+}
+
 fn thinnest_and_thickest(report: &Report) -> [f64; 2] {
     let thickness_mm = report.thickness_mm.iter();
     thickness_mm.fold([f64::INFINITY, 0.0], |[low, high], &layer_mm| {
@@ -280,33 +365,46 @@ fn describe_resin(report: &Report) -> String {
         report.mask.width,
         report.mask.height,
         report.mask.pitch_mm,
-        report.hits,
+        hits(report),
         report.adapter.as_deref().unwrap_or("the CPU"),
         report.timings_ms.total,
     )
 }
 
-/// Loads the model and runs `ask`, which makes no plan, with a progress bar.
+/// Reads the job and runs `ask` about its first plate, which makes no plan, with a progress bar.
 fn study<T>(
+    command: &str,
     studying: &Studying,
-    settings: &Settings,
-    ask: impl AsyncFnOnce(&mut Slicer, &mut StageProgress<'_>) -> Result<T, cusp_slicer::Error>,
-) -> Result<T, Failure> {
-    let mut slicer = settings.reading.load(&studying.model)?;
+    ask: impl AsyncFnOnce(
+        &mut Job,
+        &JobOptions,
+        &mut StageProgress<'_>,
+    ) -> Result<T, cusp_slicer::Error>,
+) -> Result<(T, Options), Failure> {
+    studying.choices.check(command);
+    let mut job = studying.read(command)?;
     stop_on_interrupt();
-    open_gpu(&mut slicer, settings.options.backend);
+    if job.options.options.backend == Backend::Gpu {
+        open_gpu(&mut job.job);
+    }
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    pollster::block_on(ask(&mut slicer, &mut progress))
-        .map_err(|error| Failure::in_file(&studying.model, &error))
+    let answer = pollster::block_on(ask(&mut job.job, &job.options, &mut progress));
+    let answer = answer.map_err(|error| job.failure(&error))?;
+    Ok((answer, job.options.options))
+}
+
+impl Studying {
+    /// Reads a single copy of a model, or the models of a job file.
+    fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
+        let (models, places) = (std::slice::from_ref(&self.model), Places::default());
+        LoadedJob::read(command, models, &places, &self.choices, &Budget::default())
+    }
 }
 
 pub fn tradeoff(studying: &Studying, points: usize) -> Result<(), Failure> {
-    studying.choices.check("tradeoff");
-    let settings = studying.choices.settings()?;
-    let options = &settings.options;
-    let curve = study(studying, &settings, async |slicer, progress| {
-        slicer.tradeoff(options, points, progress).await
+    let (curve, options) = study("tradeoff", studying, async |job, options, progress| {
+        job.tradeoff(0, options, points, progress).await
     })?;
     if studying.json {
         return Ok(print_json(&curve)?);
@@ -341,12 +439,9 @@ pub struct Compared {
 const FRONT_POINTS: usize = 9;
 
 pub fn compare(studying: &Studying) -> Result<(), Failure> {
-    studying.choices.check("compare");
-    let settings = studying.choices.settings()?;
-    let options = &settings.options;
-    let (comparison, front) = study(studying, &settings, async |slicer, progress| {
-        let comparison = slicer.compare(options, progress).await?;
-        let front = slicer.front(options, FRONT_POINTS, progress).await?;
+    let ((comparison, front), _) = study("compare", studying, async |job, options, progress| {
+        let comparison = job.compare(0, options, progress).await?;
+        let front = job.front(0, options, FRONT_POINTS, progress).await?;
         Ok((comparison, front))
     })?;
     if studying.json {

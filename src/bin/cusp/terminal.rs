@@ -6,7 +6,7 @@ use std::io::{self, IsTerminal, Write as _};
 use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::job::{Backend, Job, Slicer, Stage};
+use cusp_slicer::job::{Job, Stage};
 use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
 use serde::Serialize;
 
@@ -78,22 +78,12 @@ pub fn duration(seconds: f64) -> String {
     }
 }
 
-/// Searches for the GPU that the next plan uses if `backend` asks for one, and silences drivers meanwhile. Mesa, for example, complains about a
-/// missing display although nothing is displayed. The plan reports what the search found.
-pub fn open_gpu(slicer: &mut Slicer, backend: Backend) {
-    if backend != Backend::Gpu {
-        return;
-    }
+/// Searches for the GPU that the next plan uses, and silences drivers meanwhile. Mesa, for example, complains about a missing
+/// display although nothing is displayed. The plan reports what the search found.
+pub fn open_gpu(job: &mut Job) {
     #[cfg(unix)]
     let _silence = Silence::begin();
-    pollster::block_on(slicer.open_gpu());
-}
-
-/// The same for a plate of several models.
-pub fn open_gpu_of_plate(plate: &mut Job) {
-    #[cfg(unix)]
-    let _silence = Silence::begin();
-    pollster::block_on(plate.open_gpu());
+    pollster::block_on(job.open_gpu());
 }
 
 /// While it lives, nothing reaches stderr. Drivers write to the file descriptor itself, so the descriptor is redirected and

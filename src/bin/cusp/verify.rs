@@ -5,18 +5,20 @@ use std::path::{Path, PathBuf};
 
 use bytesize::ByteSize;
 use clap::Args;
-use cusp_slicer::inspect::{Limits, Printability, Verdict};
-use cusp_slicer::job::{Backend, Claim, LoadedModel, ModelPrintability, Report, VerifyError};
+use cusp_slicer::inspect::{Limits, Verdict};
+use cusp_slicer::job::{Backend, Claim, Job, LoadedModel, PlatePrintability, VerifyError};
+use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::price::{Price, PriceItem};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
+use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::check::{read_limits, verdict_name};
 use crate::files::{Failure, Reading, WeightsFile, in_file};
-use crate::job_file::{JobFile, job_file};
+use crate::job_file::{JobFile, LoadedModels};
 use crate::price::Order;
-use crate::terminal::{Bar, open_gpu, open_gpu_of_plate, print, print_json, warn};
+use crate::terminal::{Bar, open_gpu, print, print_json, warn};
 use crate::usage::wrong_usage;
 use crate::values::positive;
 use crate::watch::{keep_within, stop_on_interrupt};
@@ -26,8 +28,9 @@ use crate::watch::{keep_within, stop_on_interrupt};
 pub struct Verifying {
     /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
     plan: PathBuf,
-    /// Model that the plan was made from: 3MF, OBJ or STL. For plates, the job file
-    model: PathBuf,
+    /// Models that the plan was made from, in their order: 3MF, OBJ or STL. Or the job file
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<PathBuf>,
     /// Recompute this print file as well, and compare every byte
     #[arg(long, value_name = "FILE")]
     print: Option<PathBuf>,
@@ -46,7 +49,7 @@ pub struct Verifying {
     /// Take this much processor time at most, in seconds of all cores together
     #[arg(long, value_name = "S", value_parser = positive, default_value_t = 600.0)]
     max_cpu_time: f64,
-    /// Copies to price, each with its whole print time [default: 1; for plates, those of the plan]
+    /// How often to price the copies of the plan [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), requires = "prices")]
     copies: Option<u32>,
     /// The finish to price, by its name in the prices
@@ -85,10 +88,10 @@ impl Shop<'_> {
     }
 }
 
-/// A plan that matches.
+/// A plate whose plan matches.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
-struct Matching {
+struct VerifiedPlate {
     layers: usize,
     max_error: f64,
     tolerance: f64,
@@ -96,51 +99,15 @@ struct Matching {
     resin_ml: f64,
     print_is_same: bool,
     warnings: Vec<Warning>,
-}
-
-impl Matching {
-    fn of(made: &Report, print_is_same: bool) -> Self {
-        Self {
-            layers: made.layers,
-            max_error: made.max_error,
-            tolerance: made.tolerance,
-            print_time_s: made.print_time_s,
-            resin_ml: made.resin_ml,
-            print_is_same,
-            warnings: made.warnings.clone(),
-        }
-    }
+    /// What will fail when it is printed, if limits are given.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    printability: Option<PlatePrintability>,
 }
 
 /// The result of a successful verification.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Verified {
-    #[serde(flatten)]
-    plan: Matching,
-    /// What will fail when it is printed, if limits are given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    printability: Option<Printability>,
-    /// What it costs, if prices are given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    price: Option<Price>,
-}
-
-/// The result for a plate.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct VerifiedPlate {
-    #[serde(flatten)]
-    plan: Matching,
-    /// What will fail on each of its models, if limits are given.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    printability: Option<Vec<ModelPrintability>>,
-}
-
-/// The result for the plates of a job.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct VerifiedPlates {
     /// Print time of these plates, one after the other.
     print_time_s: f64,
     /// Volume of resin in all of their copies.
@@ -159,40 +126,17 @@ fn check_print(path: &Path, sent: &[u8], made: &[u8]) -> Result<(), Failure> {
     Err(Failure::of(path, &VerifyError::OtherPrint))
 }
 
-/// Prints what a plan is worth, and says by the exit code whether it is accepted.
-fn show(
-    verifying: &Verifying,
-    verified: &impl Serialize,
-    correct: String,
-    verdict: Option<Verdict>,
-    price: Option<&Price>,
-) -> Result<(), Failure> {
-    if verifying.json {
-        print_json(verified)?;
-    } else {
-        let verdict = verdict.map(|it| format!("verdict: {}", verdict_name(it)));
-        let price = price.map(|it| format!("price: {} {}", it.written(it.total), it.currency));
-        let lines = [Some(correct), verdict, price];
-        print(&lines.into_iter().flatten().collect::<Vec<_>>().join("\n"))?;
-    }
-    match verdict {
-        Some(Verdict::Reject) => Err(Failure::TOLD),
-        _ => Ok(()),
-    }
-}
-
-/// Verifies the plans of all plates of a job, or of one.
-fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(), Failure> {
-    let (plan, path) = (&*verifying.plan, &*verifying.model);
-    if verifying.copies.is_some() {
-        let message = "--copies is for the plan of one model: that of plates has its copies";
-        wrong_usage("verify", message);
-    }
+pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
+    let (plan, models) = (&*verifying.plan, &verifying.models);
+    let budget = verifying.budget();
+    keep_within(&budget);
+    check_inputs("verify", models);
+    let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     let shop = verifying.shop()?;
-    let plate = job.read_models(path.parent())?.plate;
-    let mut plate = verifying.budget().bound_plate(plate);
-    let files: Vec<_> = plate.models().iter().map(LoadedModel::model_file).collect();
-    let claims = Claim::read_plates(text, &files).map_err(|error| Failure::of(plan, &error))?;
+    let read = verifying.read(&text)?;
+    let mut job = budget.bound(Job::new(read.models), 1);
+    let files: Vec<_> = job.models().iter().map(LoadedModel::model_file).collect();
+    let claims = Claim::read(&text, &files).map_err(|error| Failure::of(plan, &error))?;
     let sent = match verifying.print.as_deref() {
         Some(_) if claims.len() != 1 => {
             let message = format!(
@@ -205,139 +149,116 @@ fn verify_plates(verifying: &Verifying, text: &str, job: &JobFile) -> Result<(),
         None => None,
     };
     stop_on_interrupt();
-    if claims
-        .iter()
-        .any(|claim| claim.options().backend == Backend::Gpu)
-    {
-        open_gpu_of_plate(&mut plate);
+    let mut backends = claims.iter().map(|claim| claim.options().backend);
+    if backends.any(|backend| backend == Backend::Gpu) {
+        open_gpu(&mut job);
     }
+    // The models fail together: the first names them.
+    let failed = |error: cusp_slicer::Error| Failure::in_file(&models[0], &error);
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let (mut plates, mut items) = (Vec::new(), Vec::new());
+    let (mut plates, mut items, mut worst) = (Vec::new(), Vec::new(), String::new());
     for claim in &claims {
-        let made = pollster::block_on(claim.plan_again(&mut plate, &mut progress));
-        let made = made.map_err(|error| Failure::in_file(path, &error))?;
+        let made = pollster::block_on(claim.plan_again(&mut job, &mut progress));
+        let made = made.map_err(failed)?;
         claim
             .check(made)
             .map_err(|error| Failure::of(plan, &error))?;
-        items.extend(made.price_items(1));
-        let matching = Matching::of(made, sent.is_some());
+        items.extend(made.price_items(verifying.copies.unwrap_or(1) as usize));
+        worst = made.metric.format(made.max_error);
+        let mut plate = VerifiedPlate {
+            layers: made.layers,
+            max_error: made.max_error,
+            tolerance: made.tolerance,
+            print_time_s: made.print_time_s,
+            resin_ml: made.resin_ml,
+            print_is_same: sent.is_some(),
+            warnings: made.all_warnings(),
+            printability: None,
+        };
         let limits = shop.limits.as_ref();
-        let found = limits.map(|limits| plate.inspect(0, limits, &mut progress));
-        let found = found.transpose();
-        plates.push(VerifiedPlate {
-            plan: matching,
-            printability: found
-                .map_err(|error| Failure::in_file(path, &error))?
-                .map(|it| it.models),
-        });
+        let found = limits.map(|limits| job.inspect(0, limits, &mut progress));
+        plate.printability = found.transpose().map_err(failed)?;
+        plates.push(plate);
         if let Some((print_file, sent)) = &sent {
-            let written = plate.write_archive(0, Vec::with_capacity(sent.len()), &mut progress);
-            let (bytes, _) = written.map_err(|error| Failure::in_file(path, &error))?;
+            let written = job.write_archive(0, Vec::with_capacity(sent.len()), &mut progress);
+            let (bytes, _) = written.map_err(failed)?;
             check_print(print_file, sent, &bytes)?;
         }
     }
     drop(bar);
-    let plans = plates.iter().map(|plate| &plate.plan);
-    for plan in plans.clone() {
-        warn(&plan.warnings);
+    for plate in &plates {
+        warn(&plate.warnings);
     }
-    let layers: Vec<String> = plans.clone().map(|plan| plan.layers.to_string()).collect();
-    let found = plates
+    let layers: Vec<String> = plates
         .iter()
-        .filter_map(|plate| plate.printability.as_ref());
-    let verdict = found.flatten().map(|model| model.found.verdict).max();
-    let verified = VerifiedPlates {
-        print_time_s: plans.clone().map(|plan| plan.print_time_s).sum(),
-        resin_ml: plans.map(|plan| plan.resin_ml).sum(),
-        plates,
-        price: shop.price(&items)?,
-    };
+        .map(|plate| plate.layers.to_string())
+        .collect();
     let correct = format!(
-        "the plan is correct: {} layers, each plate within its tolerance{}",
+        "the plan is correct: {} layers, {} within its tolerance{}",
         layers.join(" + "),
-        same_print(sent.is_some()),
+        match plates.len() {
+            1 => format!("largest error {worst}"),
+            _ => "each plate".to_owned(),
+        },
+        match sent {
+            Some(_) => "; the print file matches it",
+            None => "",
+        }
     );
-    show(
-        verifying,
-        &verified,
-        correct,
-        verdict,
-        verified.price.as_ref(),
-    )
+    let sum = |of: fn(&VerifiedPlate) -> f64| plates.iter().map(of).sum();
+    let verified = Verified {
+        print_time_s: sum(|plate| plate.print_time_s),
+        resin_ml: sum(|plate| plate.resin_ml),
+        price: shop.price(&items)?,
+        plates,
+    };
+    verifying.show(&verified, correct)
 }
 
-fn same_print(is_same: bool) -> &'static str {
-    if is_same {
-        "; the print file matches it"
-    } else {
-        ""
-    }
-}
-
-pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
-    let (plan, model) = (&*verifying.plan, &*verifying.model);
-    let budget = verifying.budget();
-    keep_within(&budget);
-    let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
-    if let Some(job) = job_file(&[model.to_owned()])? {
-        if verifying.weights.is_some() {
+impl Verifying {
+    /// Reads the models: of one alone, as the plan says that it was read.
+    fn read(&self, text: &str) -> Result<LoadedModels, Failure> {
+        let file = JobFile::of(&self.models)?;
+        if self.weights.is_some() && (file.is_some() || self.models.len() > 1) {
             let message = "weights belong to a model: name them beside it in the job file";
             wrong_usage("verify", message);
         }
-        return verify_plates(verifying, &text, &job);
+        if let Some(file) = file {
+            return file.read_models(self.models[0].parent());
+        }
+        let weights = self.weights.as_deref().map(WeightsFile::read).transpose()?;
+        let options = match &self.models[..] {
+            [_] => Claim::read_options(text),
+            _ => ReadOptions::default(),
+        };
+        let reading = Reading { weights, options };
+        let mut read = LoadedModels::default();
+        for model in &self.models {
+            read.models.push(reading.load(model)?);
+        }
+        Ok(read)
     }
-    let shop = verifying.shop()?;
-    let weights = verifying.weights.as_deref();
-    let reading = Reading {
-        weights: weights.map(WeightsFile::read).transpose()?,
-        options: Claim::read_options(&text),
-    };
-    let mut slicer = budget.bound(reading.load(model)?, 1);
-    let claim =
-        Claim::read(&text, slicer.model_file()).map_err(|error| Failure::of(plan, &error))?;
-    stop_on_interrupt();
-    open_gpu(&mut slicer, claim.options().backend);
-    let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let made = pollster::block_on(slicer.plan(claim.options(), &mut progress))
-        .map_err(|error| Failure::in_file(model, &error))?;
-    claim
-        .check(made)
-        .map_err(|error| Failure::of(plan, &error))?;
-    let matching = Matching::of(made, verifying.print.is_some());
-    let words = made.metric.format(made.max_error);
-    let price = shop.price(&made.price_items(verifying.copies.unwrap_or(1) as usize))?;
-    let limits = shop.limits.as_ref();
-    let found = limits.map(|limits| slicer.inspect(limits, &mut progress));
-    let printability = found
-        .transpose()
-        .map_err(|error| Failure::in_file(model, &error))?;
-    if let Some(path) = &verifying.print {
-        let sent = fs::read(path).map_err(|error| in_file(path, &error))?;
-        let (bytes, _) = slicer
-            .write_archive(Vec::with_capacity(sent.len()), &mut progress)
-            .map_err(|error| Failure::in_file(model, &error))?;
-        check_print(path, &sent, &bytes)?;
+
+    /// Prints what a plan is worth, and says by the exit code whether it is accepted.
+    fn show(&self, verified: &Verified, correct: String) -> Result<(), Failure> {
+        let found = verified
+            .plates
+            .iter()
+            .filter_map(|it| it.printability.as_ref());
+        let verdict = found.map(|it| it.verdict).max();
+        if self.json {
+            print_json(verified)?;
+        } else {
+            let verdict = verdict.map(|it| format!("verdict: {}", verdict_name(it)));
+            let price = verified.price.as_ref();
+            let price = price.map(|it| format!("price: {} {}", it.written(it.total), it.currency));
+            let lines = [Some(correct), verdict, price];
+            print(&lines.into_iter().flatten().collect::<Vec<_>>().join("\n"))?;
+        }
+        match verdict {
+            Some(Verdict::Reject) => Err(Failure::TOLD),
+            _ => Ok(()),
+        }
     }
-    drop(bar);
-    warn(&matching.warnings);
-    let correct = format!(
-        "the plan is correct: {} layers, largest error {words} within its tolerance{}",
-        matching.layers,
-        same_print(matching.print_is_same),
-    );
-    let verified = Verified {
-        plan: matching,
-        printability,
-        price,
-    };
-    let verdict = verified.printability.as_ref().map(|it| it.verdict);
-    show(
-        verifying,
-        &verified,
-        correct,
-        verdict,
-        verified.price.as_ref(),
-    )
 }

@@ -165,15 +165,17 @@ fn plans_with_warning(
     let mut slicer = Slicer::load(&stl)?.with_gpu(gpu);
     let found = pollster::block_on(slicer.plan(&options(Backend::Auto), progress))?;
     if found
-        .warnings
+        .all_warnings()
         .iter()
         .filter(|&warning| is_wanted(warning))
         .count()
         != 1
     {
-        return Err(format!("the warnings are {:?}", found.warnings).into());
+        return Err(format!("the warnings are {:?}", found.all_warnings()).into());
     }
-    if (found.backend.as_str(), &found.z_mm, found.hits) != ("cpu", &expected.z_mm, expected.hits) {
+    if (found.backend.as_str(), &found.z_mm, found.models[0].hits)
+        != ("cpu", &expected.z_mm, expected.models[0].hits)
+    {
         return Err("the plan is not the CPU's".into());
     }
     // The failure leaves no trace in the print file.

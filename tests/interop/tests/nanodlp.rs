@@ -175,9 +175,9 @@ fn hollow_and_supported_models_are_read() {
     let (ball, options) = held();
     let planner = Planner::Uniform { layer_mm: 0.1 };
     let (_, report) = check(&ball, &Options { planner, ..options });
-    assert_eq!(report.warnings, []);
-    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
-    assert!(report.supported.unwrap().support_ml > 0.0);
+    assert_eq!(report.all_warnings(), []);
+    assert_eq!(report.models[0].hollowed.clone().unwrap().drains.len(), 1);
+    assert!(report.models[0].supported.clone().unwrap().support_ml > 0.0);
 }
 
 #[test]

@@ -84,7 +84,7 @@ export function paths(engine: Engine): void {
       session.call(() => {
         const report = document.querySelector("cusp-workbench")?.result?.report;
         if (report === undefined) throw new Error("there is no plan");
-        return { z_mm: report.z_mm, crc32: report.weights_crc32 };
+        return { z_mm: report.z_mm, crc32: report.models[0]?.weights_crc32 ?? null };
       });
 
     /** Number of pixels that are not dark in the picture of a mask. */

@@ -10,7 +10,7 @@ export async function main([folder = ".", ...accepted]: string[]): Promise<void>
   for (const id of await readdir(waiting)) {
     const order = JSON.parse(await readFile(join(waiting, id, "order.json"), "utf8")) as Order;
     const { placed_at, copies, model_name, printer, resin, price_cents, verified } = order;
-    const found = verified.printability.counts.map(({ code }) => code).join(", ");
+    const found = verified.printability.models.flatMap((model) => model.counts).map(({ code }) => code).join(", ");
     console.log([id, placed_at, `${copies} × ${model_name}`, `${printer}, ${resin}`, money(price_cents), found].join("  "));
   }
 }

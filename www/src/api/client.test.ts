@@ -393,6 +393,6 @@ test("a price is that of the last good plan, also in a fresh worker", async () =
   log = [];
   expect(await client.price({ currency: "EUR" }, { copies: 3, finish: "sanded" }, {})).toMatchObject({ currency: "EUR" });
   // It needs neither the model nor the plan.
-  expect(log.slice(-1)).toEqual([`${workers.length}: price of [{"copies":3,"resin_ml":2,"print_time_s":60}], sanded`]);
+  expect(log.slice(-1)).toEqual([`${workers.length}: price of [{"copies":3,"resin_ml":1.5,"print_time_s":15}], sanded`]);
   expect(log.filter((call) => /plan|add/.test(call))).toEqual([]);
 });

@@ -34,13 +34,13 @@ test("the diameters of contacts and drain holes that forms show match the core's
   const job = jobOf(binaryStl(exampleTriangles()));
   const plan = (options: Options): Promise<Report> => planOf(job, { rays: 64, backend: "cpu", ...options });
   for (const strength of ["light", "medium", "heavy"] as const) {
-    const { supported } = await plan({ supports: { strength } });
+    const { models: [{ supported } = {}] } = await plan({ supports: { strength } });
     const { at_mm } = supported?.points[0] ?? {};
     if (at_mm === undefined) throw new Error("the model has no supports");
     // A report has only diameters that are not those of the strength.
     for (const [contact_mm, said] of [[CONTACT_MM[strength], undefined], [0.55, 0.55]] as const) {
       const again = await plan({ supports: { strength, points: [{ at_mm, contact_mm }] } });
-      expect(again.supported?.points[0]?.contact_mm, strength).toBe(said);
+      expect(again.models[0]?.supported?.points[0]?.contact_mm, strength).toBe(said);
     }
   }
   const { options } = await plan({ hollow: { auto_drain: {} } });

@@ -51,10 +51,10 @@ export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
       planned = job;
       const isAlone = models.length === 1 && (own[0]?.copies ?? 1) === 1;
       const plates = isAlone ? 1 : 2;
-      const on = own.map(({ copies = 1 }, model) => ({ model, copies, size_mm: [1, 1, 1], resin_ml: 1.5, print_time_s: 15 }));
-      const report = (plate: number): Report => ({ ...fakeReport(job), ...(!isAlone && { plate: { plate, plates, models: on, placements: [] } }) }) as Report;
+      const on = models.map((_, model) => own[model] ?? {}).map(({ copies = 1 }, model) => ({ model, copies, size_mm: [1, 1, 1], resin_ml: 1.5, print_time_s: 15, warnings: [] }));
+      const report = (plate: number): Report => ({ ...fakeReport(job), plate, plate_count: plates, models: on, placements: [] }) as unknown as Report;
       return {
-        report: { schema: 2, print_time_s: 60, resin_ml: 3, plates: Array.from({ length: plates }, (_, plate) => report(plate)) },
+        report: { schema: 3, print_time_s: 60, resin_ml: 3, plates: Array.from({ length: plates }, (_, plate) => report(plate)) },
         profiles: Array.from({ length: plates }, (_, plate) => Float32Array.of(plate + 1)),
         ...(options?.supports !== undefined && { supports: own.map((_, model) => Float32Array.of(model)) }),
       };
@@ -106,6 +106,7 @@ export function fakeReport({ options }: JobOptions): Report {
   return {
     mask: { width: options?.tolerance ?? 9, height: 2 },
     print_file: { format: "uvj", extension: "uvj", media_type: "application/octet-stream" },
+    models: [],
     warnings: [{ code: "inside-out" }],
     resin_ml: 2,
     print_time_s: 60,

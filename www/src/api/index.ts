@@ -64,7 +64,7 @@ export type ModelChange = { [Name in keyof ModelOptions]?: ModelOptions[Name] | 
  * how. `report` and `profile` are those of the first plate.
  */
 export interface Plan extends Versioned, Profiled<Report>, Shells {
-  /** One for each plate. `report.plate` has its models, where each copy stands, and each copy's share of time and resin; a single copy in the middle has none. */
+  /** One for each plate. Its report has its models, where each copy stands, and each copy's share of time and resin. */
   plates: Profiled<Report>[];
   /** Print time of all plates, one after the other. */
   print_time_s: number;
@@ -495,7 +495,7 @@ function reportOf(reports: readonly Report[], plate: number): Report {
 
 /** The name of the only model, or of the plate. */
 function stemOfPlate(plate: number, reports: readonly Report[], models: readonly Held[]): string {
-  const [only, ...others] = reportOf(reports, plate).plate?.models ?? models.map((_, model) => ({ model }));
+  const [only, ...others] = reportOf(reports, plate).models;
   const isOne = others.length === 0 && reports.length === 1;
   const name = only === undefined ? undefined : models[only.model]?.name;
   return isOne && name !== undefined ? stemOf(name) : `plate-${plate + 1}`;

@@ -23,11 +23,11 @@ const file = (text: string): Blob => new Blob([text]);
 test("models are added in order, and a plan has their copies", async () => {
   const cup = await slicer.add(file("cup"), {}, { name: "cup.stl" });
   const ring = await slicer.add(file("ring"), { copies: 20, tolerance: 0.1 });
-  expect(cup).toMatchObject({ schema: 2, name: "cup.stl", own: {}, info: { facets: 1 } });
+  expect(cup).toMatchObject({ schema: 3, name: "cup.stl", own: {}, info: { facets: 1 } });
   expect(ring.own).toEqual({ copies: 20, tolerance: 0.1 });
   expect(ring.id).not.toBe(cup.id);
   const plan = await slicer.plan({ tolerance: 1 });
-  expect(plan).toMatchObject({ schema: 2, print_time_s: 60, resin_ml: 3 });
+  expect(plan).toMatchObject({ schema: 3, print_time_s: 60, resin_ml: 3 });
   expect(plan.plates.map(({ profile }) => [...profile])).toEqual([[1], [2]]);
   expect(log).toEqual(["1: add cup", "1: add ring", "1: plan 1 of cup ring×20"]);
 });
@@ -129,7 +129,7 @@ test("a print file is named by its plate, and made from the last plan", async ()
   await slicer.add(file("cup"), { copies: 2 }, { name: "cup.stl" });
   await expect(slicer.export()).rejects.toMatchObject({ code: "no-plan" });
   await slicer.plan({ tolerance: 1 });
-  expect(await slicer.export(undefined, { plate: 1 })).toMatchObject({ schema: 2, name: "plate-2-cusp.uvj", type: "application/octet-stream" });
+  expect(await slicer.export(undefined, { plate: 1 })).toMatchObject({ schema: 3, name: "plate-2-cusp.uvj", type: "application/octet-stream" });
 });
 
 test("placements, arranged or not, reach the core with the models", async () => {

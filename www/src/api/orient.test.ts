@@ -140,7 +140,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
         return work(call, () => tasks.map(({ number, directions }) => ({ number, candidates: packed(directions.map(candidateAt)) })));
       },
       remove: () => undefined,
-      plan: async () => ({ report: { schema: 2, print_time_s: 0, resin_ml: 0, plates: [{} as Report] }, profiles: [] }),
+      plan: async () => ({ report: { schema: 3, print_time_s: 0, resin_ml: 0, plates: [{} as Report] }, profiles: [] }),
       preview: () => ({ report: {} as Preview, profile: new Float32Array() }),
     };
     return { remote, terminate: () => live.delete(number), onBroken: () => undefined };

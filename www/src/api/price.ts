@@ -9,8 +9,7 @@ export interface Ordered {
   finish?: string;
 }
 
-/** What a report needs: copies on a plate have their shares of its time. */
-export function priceItems({ plate, resin_ml, print_time_s }: Report, copies = 1): PriceItem[] {
-  if (!plate) return [{ copies, resin_ml, print_time_s }];
-  return plate.models.map((model) => ({ copies: model.copies * copies, resin_ml: model.resin_ml, print_time_s: model.print_time_s }));
+/** What `copies` prints of a plate need: each of its copies has its share of the time. */
+export function priceItems({ models }: Report, copies = 1): PriceItem[] {
+  return models.map((model) => ({ copies: model.copies * copies, resin_ml: model.resin_ml, print_time_s: model.print_time_s }));
 }

@@ -2,7 +2,7 @@
 import type { Report, Warning } from "./wire.js";
 
 /** The version of the result format. It increases when a field is removed or changes its meaning, not when one is added. */
-export const SCHEMA = 2;
+export const SCHEMA = 3;
 
 /** The default number of points on a trade-off curve. */
 export const CURVE_POINTS = 40;
@@ -35,7 +35,12 @@ export interface PrintFile extends Versioned {
 }
 
 /** A print file under a name without its extension. */
-export function printFile(stem: string, blob: Blob, { print_file, warnings }: Report): PrintFile {
-  const { extension, media_type: type } = print_file;
-  return { schema: SCHEMA, name: `${stem}.${extension}`, type, blob: blob.slice(0, blob.size, type), warnings };
+export function printFile(stem: string, blob: Blob, report: Report): PrintFile {
+  const { extension, media_type: type } = report.print_file;
+  return { schema: SCHEMA, name: `${stem}.${extension}`, type, blob: blob.slice(0, blob.size, type), warnings: warningsOf(report) };
+}
+
+/** The warnings about the models of a plate, then those about the plate. */
+export function warningsOf({ models, warnings }: Report): Warning[] {
+  return [...models.flatMap((model) => model.warnings), ...warnings];
 }

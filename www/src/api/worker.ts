@@ -114,8 +114,9 @@ const api: Remote = {
     const { plates } = report;
     const profiles = plates.map(({ metric, source }, plate) => job.profile(plate, metric, source));
     const places = Array.from({ length: job.models() }, (_, model) => model);
-    const isSupported = plates.some(({ supported }) => supported !== undefined);
-    const isHollow = plates.some(({ hollowed }) => hollowed !== undefined);
+    const models = plates.flatMap((plate) => plate.models);
+    const isSupported = models.some(({ supported }) => supported !== undefined);
+    const isHollow = models.some(({ hollowed }) => hollowed !== undefined);
     const supports = isSupported ? places.map((model) => job.supports(model)) : null;
     const voids = isHollow ? places.map((model) => job.voids(model)) : null;
     const buffers = [profiles, supports, voids].flatMap((arrays) => arrays?.map(({ buffer }) => buffer) ?? []);

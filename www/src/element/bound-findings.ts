@@ -7,7 +7,7 @@ const findingsCode = new FetchedPanel("findings", () => import("./panels/finding
 
 export function findingsPanel({ element, session, language, panels }: Facts): TemplateResult | typeof nothing {
   if (!findingsCode.isThere) return findingsCode.instead(element, language);
-  const { checks, result, settings, plate } = session;
+  const { checks, settings, plate } = session;
   return html`<cusp-findings
     .checks=${checks}
     .verdict=${checks.last?.verdict ?? null}
@@ -16,7 +16,7 @@ export function findingsPanel({ element, session, language, panels }: Facts): Te
     .isCurrent=${checks.isCurrent}
     .error=${checks.error}
     .chosen=${checks.chosen}
-    .isAlone=${result?.report.plate === undefined}
+    .isAlone=${!session.plate.isSeveral}
     .hasView=${panels.has("view")}
     .showsWalls=${checks.showsWalls}
     .wall_mm=${checks.wall_mm}

@@ -92,7 +92,7 @@ function contentOf(facts: Facts, step: Step): TemplateResult | typeof nothing {
 
 /** How many points no support reaches. */
 function missing({ session: { result, settings }, language }: Facts): TemplateResult | typeof nothing {
-  const points = settings.supports === "none" ? 0 : (result?.report.supported?.unreached.length ?? 0);
+  const points = settings.supports === "none" ? 0 : (result?.own?.supported?.unreached.length ?? 0);
   return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing(points, language.format)}</p>`;
 }
 

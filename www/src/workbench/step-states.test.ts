@@ -1,6 +1,6 @@
 /** How far each step is, in words. */
 import { expect, test } from "vitest";
-import type { Report, Verdict } from "../api/wire.js";
+import type { ModelReport, Verdict } from "../api/wire.js";
 import type { Check } from "../api/index.js";
 import { report } from "../element/state/report-fixture.js";
 import { DEFAULT_SETTINGS, type Faults, type Settings } from "../element/state/settings.js";
@@ -13,7 +13,7 @@ const english = languageOf("en");
 interface Given {
   settings?: Partial<Settings>;
   faults?: Faults;
-  report?: Partial<Report> | null;
+  own?: Partial<ModelReport> | null;
   supports?: { strength: "light" | "medium" | "heavy" };
   earlier?: boolean;
   verdict?: Verdict;
@@ -22,7 +22,7 @@ interface Given {
 /** What a session has of these. */
 function walked(given: Given = {}): Walked {
   const { settings = {}, faults = {}, supports, earlier = false, verdict } = given;
-  const result = given.report === null ? null : { report: report(given.report ?? {}), options: { ...(supports && { supports }) } };
+  const result = given.own === null ? null : { report: report({}), own: given.own, options: { ...(supports && { supports }) } };
   return {
     settings: { ...DEFAULT_SETTINGS, ...settings },
     faults,
@@ -46,7 +46,7 @@ test("a model as it was dropped has been planned, and nothing else", () => {
     support: { words: "None", mark: null },
     slice: { words: "793 layers", mark: "done" },
   });
-  expect(states({ report: null }).slice).toEqual({ words: "–", mark: null });
+  expect(states({ own: null }).slice).toEqual({ words: "–", mark: null });
   expect(states({ settings: { rotation: "0,0,0.7,0.7" } }).turn).toEqual({ words: "Turned", mark: "done" });
 });
 
@@ -60,22 +60,19 @@ test("a check is told by its verdict", () => {
 test("a hollow model has walls, which may need a look", () => {
   const settings = { wall: "2.5" };
   expect(states({ settings }).hollow).toEqual({ words: "Walls of 2.5\u00a0mm", mark: "done" });
-  const warnings: Report["warnings"] = [{ code: "undrained", detail: { basins: 1 } }];
-  expect(states({ settings, report: { warnings } }).hollow.mark).toBe("look");
+  const warnings: ModelReport["warnings"] = [{ code: "undrained", detail: { basins: 1 } }];
+  expect(states({ settings, own: { warnings } }).hollow.mark).toBe("look");
   expect(states({ settings: { wall: "0.1" }, faults: { wall: fault } }).hollow).toEqual({ words: "To be corrected", mark: "wrong" });
 });
 
 test("supports are counted once they are planned with their strength", () => {
   const settings = { supports: "medium" } as const;
   const strength = (of: "light" | "medium", unreached = supported.points): unknown =>
-    states({ settings, supports: { strength: of }, report: { supported: { ...supported, unreached } } }).support;
+    states({ settings, supports: { strength: of }, own: { supported: { ...supported, unreached } } }).support;
   expect(states({ settings }).support).toEqual({ words: "Medium", mark: "done" });
   expect(strength("light", [])).toEqual({ words: "Medium", mark: "done" });
   expect(strength("medium", [])).toEqual({ words: "Medium, 2 points", mark: "done" });
   expect(strength("medium")).toEqual({ words: "Medium, 2 points", mark: "look" });
-  // The report of a plate does not list them.
-  const plate = { supported: { ...supported, points: [] }, plate: {} as Report["plate"] & object };
-  expect(states({ settings, supports: { strength: "medium" }, report: plate }).support).toEqual({ words: "Medium", mark: "done" });
 });
 
 test("a plan that is not of the settings on show needs a look, and what is wrong is told where it is", () => {
@@ -96,7 +93,7 @@ test.each(LANGUAGES)("every state fits its place beside four others: %s", async 
   const language = languageOf(code);
   const all = [
     {},
-    { settings: { rotation: "0,0,1,0", wall: "2.5", supports: "medium" }, supports: { strength: "medium" }, report: { supported: { ...supported, points: Array.from({ length: 240 }, () => point) } } },
+    { settings: { rotation: "0,0,1,0", wall: "2.5", supports: "medium" }, supports: { strength: "medium" }, own: { supported: { ...supported, points: Array.from({ length: 240 }, () => point) } } },
     { faults: { wall: fault, height: fault } },
   ] satisfies Given[];
   for (const given of all) {

@@ -47,7 +47,7 @@ function hollow({ settings, faults, result }: Walked, language: Language): StepS
   if (faults.wall !== undefined) return { words: words.wrong, mark: "wrong" };
   const wall_mm = parse(settings.wall);
   if (wall_mm === null) return { words: words.solid, mark: null };
-  const isAmiss = result?.report.warnings.some(({ code }) => OF_VOIDS.includes(code)) ?? false;
+  const isAmiss = result?.own?.warnings?.some(({ code }) => OF_VOIDS.includes(code)) ?? false;
   return { words: words.walls(language.format.mm(wall_mm)), mark: isAmiss ? "look" : "done" };
 }
 
@@ -56,9 +56,9 @@ function support({ settings: { supports, format }, result }: Walked, language: L
   if (isFilament(format)) return { words: "–", mark: null };
   const strength = language.texts.settings.strengths[supports];
   if (supports === "none") return { words: strength, mark: null };
-  const { supported, options } = result === null ? {} : { supported: result.report.supported, options: result.options };
-  // Points of another strength are of an earlier plan, and those of a plate's models are not listed.
-  if (supported === undefined || result?.report.plate !== undefined || options?.supports?.strength !== supports) return { words: strength, mark: "done" };
+  const supported = result?.own?.supported;
+  // Points of another strength are of an earlier plan.
+  if (supported === undefined || result?.options.supports?.strength !== supports) return { words: strength, mark: "done" };
   const mark = supported.unreached.length > 0 ? "look" : "done";
   return { words: words.supports(strength, supported.points.length, language.format), mark };
 }

@@ -168,9 +168,9 @@ fn big_endian_printers() -> impl Iterator<Item = &'static Printer> {
 fn hollow_and_supported_models_are_read() {
     let (ball, options) = held();
     let (_, report) = check(&ball, &options);
-    assert_eq!(report.warnings, []);
-    assert_eq!(report.hollowed.unwrap().drains.len(), 1);
-    assert!(report.supported.unwrap().support_ml > 0.0);
+    assert_eq!(report.all_warnings(), []);
+    assert_eq!(report.models[0].hollowed.clone().unwrap().drains.len(), 1);
+    assert!(report.models[0].supported.clone().unwrap().support_ml > 0.0);
 }
 
 #[test]

@@ -127,8 +127,9 @@ async function order(): Promise<void> {
 
 /** The key of an order: stays the same for the same order until an answer says that it was taken. */
 function keyOf({ result, copies, price }: Offer): string {
-  const { model, options, weights_crc32 } = result.report;
-  const what = JSON.stringify([model, options, weights_crc32, copies, price.total]);
+  const { models, options } = result.report;
+  const which = models.map(({ file, weights_crc32 }) => [file, weights_crc32]);
+  const what = JSON.stringify([which, options, copies, price.total]);
   if (unanswered?.what !== what) unanswered = { what, key: crypto.randomUUID() };
   return unanswered.key;
 }

@@ -41,8 +41,10 @@ const answering = (verdict: string): string => `{
   ];
   const price = { currency: "EUR", digits: 2, copies, finish: null, lines, total: lines.reduce((sum, { amount }) => sum + amount, 0) };
   const findings = "${verdict}" === "ok" ? [] : [{ code: "trap", severity: "${verdict}" }];
-  const printability = { verdict: "${verdict}", findings, counts: findings.map(({ code }) => ({ code, found: 1 })) };
-  console.log(JSON.stringify({ ...${JSON.stringify(VERDICT)}, price, printability, limits: read("--limits") }));
+  const models = [{ findings, counts: findings.map(({ code }) => ({ code, found: 1 })) }];
+  const printability = { verdict: "${verdict}", models };
+  const plate = { ...${JSON.stringify(VERDICT)}, printability, limits: read("--limits") };
+  console.log(JSON.stringify({ plates: [plate], price }));
   if ("${verdict}" === "reject") process.exitCode = 1;
 }`;
 const HONEST = answering("ok");

@@ -2,11 +2,11 @@
 import { execFile } from "node:child_process";
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
-import type { Limits, Price, Prices, Printability, Warning } from "cusp-slicer";
+import type { Limits, PlatePrintability, Price, Prices, Warning } from "cusp-slicer";
 import { Refusal, type RefusalCode } from "./refusal.js";
 import { FILES } from "./upload.js";
 
-/** What `cusp verify --json` prints for a valid plan. */
+/** What `cusp verify --json` prints of the plate of a valid plan, with its price. */
 export interface Verified {
   layers: number;
   /** In the metric's unit, like the tolerance. */
@@ -17,7 +17,7 @@ export interface Verified {
   print_is_same: boolean;
   /** What the operator of the printer should know, such as parts that hang in the air. */
   warnings: readonly Warning[];
-  printability: Printability;
+  printability: PlatePrintability;
   price: Price;
 }
 
@@ -30,6 +30,12 @@ export interface Verifier {
 
 /** Room for what it prints: up to a hundred findings of each kind, and the area of every layer. */
 const MOST_ANSWER_BYTES = 16e6;
+
+/** What `cusp verify --json` prints for a valid plan. */
+export interface Answer {
+  plates: readonly Omit<Verified, "price">[];
+  price: Price;
+}
 
 /** What `cusp verify --json` prints if it fails. */
 interface Failed {
@@ -69,15 +75,23 @@ export async function verify(folder: string, terms: Terms, { cusp, limit_ms }: V
       else reject((error.code === 1 ? answered(stdout) : null) ?? error);
     });
   });
-  const verified = JSON.parse(output) as Verified;
+  const verified = verifiedOf(JSON.parse(output) as Answer);
   if (!verified.print_is_same) throw new Refusal("print-refused", "The print file was refused.");
   if (verified.printability.verdict === "reject") throw rejected(verified);
   return verified;
 }
 
+/** An order is of a single copy, on one plate. */
+export function verifiedOf({ plates, price }: Answer): Verified {
+  const [plate, ...others] = plates;
+  if (plate === undefined || others.length > 0) throw new Refusal("plan-refused", "The plan is not of one plate.");
+  return { ...plate, price };
+}
+
 /** A correct plan of a model that the shop does not print. */
 function rejected({ printability }: Verified): Refusal {
-  const codes = new Set(printability.findings.filter(({ severity }) => severity === "reject").map(({ code }) => code));
+  const findings = printability.models.flatMap((model) => model.findings);
+  const codes = new Set(findings.filter(({ severity }) => severity === "reject").map(({ code }) => code));
   return new Refusal("not-printable", `The model cannot be printed like this: ${[...codes].join(", ")}.`);
 }
 
@@ -88,16 +102,16 @@ function rejected({ printability }: Verified): Refusal {
 function answered(output: string): Refusal | null {
   const answer = parsed(output);
   if (answer === null) return null;
-  if (!("error" in answer)) return rejected(answer);
+  if (!("error" in answer)) return rejected(verifiedOf(answer));
   const { code, message, file } = answer.error;
   if (code === "time-bound" || code === "memory-bound") return new Refusal("took-too-long", "Checking this model takes more than we can spend.");
   const [refusal, subject] = BLAME[file ?? ""] ?? ["plan-refused", "The order was refused"];
   return new Refusal(refusal, `${subject}: ${message}.`);
 }
 
-function parsed(output: string): Verified | Failed | null {
+function parsed(output: string): Answer | Failed | null {
   try {
-    return JSON.parse(output) as Verified | Failed;
+    return JSON.parse(output) as Answer | Failed;
   } catch {
     return null;
   }

@@ -1,4 +1,5 @@
 /** The card of the open model. */
+import { warningsOf } from "../../api/results.js";
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { PlateChoice, Warning } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
@@ -39,7 +40,7 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
   // The size is not odd once a unit or a height is chosen.
   const isSized = settings.unit !== "" || settings.height.trim() !== "";
   const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
-  const all = asked([...(model?.info.warnings ?? []), ...(result?.report.warnings ?? [])]);
+  const all = asked([...(model?.info.warnings ?? []), ...(result === null ? [] : warningsOf(result.report))]);
   return advise(all, language, fixed).map(
     ({ text, offers, towers, plates }) => html`<div class="warning">
       <p>${text}</p>

@@ -169,7 +169,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     const { format } = language;
     const words = language.texts.plate;
     const isSelected = place === this.selected;
-    const share = planned?.plates.flatMap(({ report }) => report.plate?.models ?? []).find(({ model }) => model === place);
+    const share = planned?.plates.flatMap(({ report }) => report.models).find(({ model }) => model === place);
     return html`<li class=${isSelected ? "selected" : ""}>
       <canvas width=${2 * THUMBNAIL_PX} height=${2 * THUMBNAIL_PX} data-place=${place} aria-hidden="true"></canvas>
       <button class="name" aria-pressed=${isSelected ? "true" : "false"} @click=${() => plate.select(place)}>${shown(entry.model.name)}</button>

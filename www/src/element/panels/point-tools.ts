@@ -196,7 +196,7 @@ export class PointEditor {
   /** Plugs for the holes of the plan, as soon as it has some. */
   #plugs(words: PlacingTexts): TemplateResult | typeof nothing {
     const { model, result, isCurrent, busy } = this.#session;
-    if (model === null || (result?.report.hollowed?.drains.length ?? 0) === 0) return nothing;
+    if (model === null || (result?.own?.hollowed?.drains.length ?? 0) === 0) return nothing;
     const make = (): Promise<Download | null> =>
       this.#session.write("export", async (watch) => {
         const stl = await this.#slicer.plugs(watch);

@@ -241,7 +241,7 @@ export function details({ report }: Result, { texts: { details: words }, format 
       ${fact(words.overhead, format.seconds(report.overhead_s))}
       ${fact(words.mask, words.maskSize(format.count(mask.width), format.count(mask.height), format.fine(mask.pitch_mm)))}
       ${fact(words.bins, words.binSize(format.count(report.bins), format.fine(report.bin_mm)))}
-      ${fact(words.hits, format.count(report.hits))}
+      ${fact(words.hits, format.count(report.models.reduce((sum, { hits }) => sum + hits, 0)))}
     </dl>
   </details>`;
 }

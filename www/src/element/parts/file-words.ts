@@ -32,8 +32,10 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
   return words.together([words.kinds[format](extension), ...reading(), prepared(report, words)]);
 }
 
-/** Whether the model prints as it is. */
-function prepared({ hollowed, supported }: Report, words: Language["texts"]["file"]): string {
-  if (supported === undefined) return hollowed === undefined ? words.asIs : words.hollow;
-  return hollowed === undefined ? words.supported : words.hollowSupported;
+/** Whether the models print as they are. */
+function prepared({ models }: Report, words: Language["texts"]["file"]): string {
+  const isHollow = models.some(({ hollowed }) => hollowed !== undefined);
+  const isSupported = models.some(({ supported }) => supported !== undefined);
+  if (!isSupported) return isHollow ? words.hollow : words.asIs;
+  return isHollow ? words.hollowSupported : words.supported;
 }

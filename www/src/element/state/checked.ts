@@ -14,10 +14,10 @@ export interface Checked {
 type Place = readonly [number, number, number];
 
 /** The models of a check, with their findings at their places on the plate. */
-export function checkedOf(check: Check, { plate }: Report): readonly Checked[] {
-  if (plate === undefined) return check.models.map((found) => ({ model: null, copies: 1, found }));
+export function checkedOf(check: Check, { placements: all }: Report): readonly Checked[] {
+  if (all.length === 1) return check.models.map((found) => ({ model: null, copies: 1, found }));
   return check.models.map(({ model, turn_deg, findings, counts }) => {
-    const placements = plate.placements.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
+    const placements = all.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
     const moved = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
     const placed = (finding: Finding): Finding => {

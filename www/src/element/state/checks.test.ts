@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type Check } from "../../api/index.js";
-import type { Finding, Report } from "../../api/wire.js";
+import type { Finding } from "../../api/wire.js";
 import { planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer } from "./session-fixture.js";
 
@@ -113,7 +113,7 @@ test("on a plate each model is checked, and its findings are where its first cop
     { model: 1, x_mm: -20, y_mm: 5, turn_deg: 45 },
     { model: 1, x_mm: 20, y_mm: 5, turn_deg: 45 },
   ];
-  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: { plate: 3, placements } } as unknown as Report });
+  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: 3, placements } });
   await settle();
   const { findings = [], counts = [] } = checkOf("cup").models[0] ?? {};
   const found = { findings: [], counts: [], verdict: "ok", bodies: 1, peel } as const;

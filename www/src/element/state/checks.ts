@@ -117,7 +117,7 @@ export class Checks {
     if (!(this.#isOpen || limits !== null) || this.isCurrent) return false;
     const { plate } = result.report;
     try {
-      const check = await this.#slicer.check(limits ?? {}, { plate: plate?.plate });
+      const check = await this.#slicer.check(limits ?? {}, { plate });
       if (!this.#isNow(of)) return true;
       this.#keep(of, check, null);
       this.#host.checked(check);

@@ -30,7 +30,7 @@ const uniform = (max_error: number, layers: number, print_time_s: number): Repor
 function resultOf(plan: TradeoffPoint): Result {
   const [finest, coarsest] = [uniform(0.05, 400, 4400), uniform(0.15, 134, 1920)];
   const report = { planner: "optimal", ...plan, uniform: { finest, coarsest } };
-  return { ...planOf(1), report: report as unknown as Report, options: {}, limits: [0.05, 0.15] };
+  return { ...planOf(1), report: report as unknown as Report, options: {}, own: undefined, limits: [0.05, 0.15] };
 }
 
 async function curveOf(points: TradeoffPoint[], plan: TradeoffPoint): Promise<Curve> {

@@ -10,7 +10,7 @@ export const model: Model = { schema: SCHEMA, id: 1, name: "a.stl", file: new Bl
 export function planOf(layers: number, height_mm = 10): Plan {
   const z_mm = Array.from({ length: layers + 1 }, (_, i) => (i * height_mm) / layers);
   const mask = { width: 8, height: 1, pitch_mm: 1 };
-  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5, planner: "optimal" } as unknown as Report;
+  const report = { layers, height_mm, z_mm, mask, metric: "volume", tolerance: 12.5, planner: "optimal", models: [], placements: [{ model: 0 }], warnings: [] } as unknown as Report;
   const of = { report, profile: new Float32Array(1) };
   return { schema: SCHEMA, ...of, plates: [of], print_time_s: 1, resin_ml: 1 };
 }
@@ -49,7 +49,7 @@ export class FakeSlicer {
   readonly previews: Options[] = [];
   readonly preview = async (options: Options = {}): Promise<PreviewedPlan> => {
     this.previews.push(options);
-    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [] } as unknown as Preview, profile: new Float32Array() };
+    return { schema: SCHEMA, report: { layers: 99, z_mm: [0], thickness_mm: [], lift_mm: 0 } as unknown as Preview, profile: new Float32Array() };
   };
   readonly painted: (Float32Array | null)[] = [];
   readonly setWeights = async (weights: Float32Array | null): Promise<void> => void this.painted.push(weights);

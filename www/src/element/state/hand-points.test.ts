@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Report } from "../../api/wire.js";
+import type { ModelReport } from "../../api/wire.js";
 import { added, automatic, cleared, locked, moved, pointAt, pointsOf, removed, resized, type HandPoints } from "./hand-points.js";
 import type { PlacedKind } from "./placed.js";
 import { report } from "./report-fixture.js";
@@ -18,10 +18,10 @@ const optionsOf = (settings: Settings) => {
 };
 
 /** The points of settings after a plan of them, which had this report. */
-function shown(kind: PlacedKind, change: Partial<Settings>, patch: Partial<Report> | null, isCurrent = true): HandPoints {
+function shown(kind: PlacedKind, change: Partial<Settings>, own: Partial<ModelReport> | null, isCurrent = true): HandPoints {
   const settings = { ...DEFAULT_SETTINGS, ...change };
   const options = optionsOf(settings);
-  const result = patch === null ? null : ({ report: report(patch), options } as Result);
+  const result = own === null ? null : ({ report: report({}), own, options } as Result);
   return pointsOf(kind, { settings, options, result, isCurrent });
 }
 
@@ -63,7 +63,7 @@ test("while the automatic points are unknown, an edit leaves them automatic", ()
 
 test("points of a plan in another pose are not those of the model", () => {
   const settings: Settings = { ...DEFAULT_SETTINGS, supports: "light" };
-  const result = { report: report({ supported: { ...SUPPORTED, points: [LOW], unreached: [] } }), options: { ...optionsOf(settings), height_mm: 7 } } as Result;
+  const result = { report: report({}), own: { supported: { ...SUPPORTED, points: [LOW], unreached: [] } }, options: { ...optionsOf(settings), height_mm: 7 } } as unknown as Result;
   expect(pointsOf("points", { settings, options: optionsOf(settings), result, isCurrent: false })).toMatchObject({ list: [], isWhole: false });
 });
 

@@ -65,7 +65,7 @@ function isSamePose(a: Options, b: Options | null): boolean {
 }
 
 /** What a plan has; null if it has no such thing. */
-function plannedOf(kind: PlacedKind, { report: { supported, hollowed } }: Result): { reached: Placed[]; unreached: Placed[] } | null {
+function plannedOf(kind: PlacedKind, { own: { supported, hollowed } = {} }: Result): { reached: Placed[]; unreached: Placed[] } | null {
   if (kind === "drains") return hollowed === undefined ? null : { reached: hollowed.drains.map(drainOf), unreached: [] };
   return supported === undefined ? null : { reached: supported.points.map(contactOf), unreached: supported.unreached.map(contactOf) };
 }

@@ -337,7 +337,7 @@ export class Plate {
 
   /** Height of a model in the last plan, by its place; null without a plan of several. */
   heightOf(place: number): number | null {
-    const models = this.planned?.plates.flatMap(({ report }) => report.plate?.models ?? []);
+    const models = this.planned?.plates.flatMap(({ report }) => report.models);
     return models?.find(({ model }) => model === place)?.size_mm[2] ?? null;
   }
 
@@ -364,7 +364,7 @@ export class Plate {
     this.#planned = entries;
     this.number = Math.min(this.number, planned.plates.length - 1);
     this.problems = [];
-    this.placements = placed.length > 0 ? placed : planned.plates.flatMap(({ report }) => report.plate?.placements ?? []);
+    this.placements = placed.length > 0 ? placed : planned.plates.flatMap(({ report }) => report.placements);
     const plan = planned.plates[this.number];
     if (plan === undefined) throw new Error("a plan without plates");
     return { ...planned, ...plan };

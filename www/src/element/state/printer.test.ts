@@ -1,5 +1,5 @@
 import { expect, test } from "vitest";
-import type { Format as PrintFormat, KnownPrinter, Printer, Warning } from "../../api/wire.js";
+import type { Format as PrintFormat, KnownPrinter, Printer, Warning, ModelReport } from "../../api/wire.js";
 import { languageOf, LANGUAGES, type Language } from "../../texts/index.js";
 import { fileWords } from "../parts/file-words.js";
 import { byMaker, formatFor, isPrinter, printerFrom, printerOf, printerText, readPrinter } from "./printer.js";
@@ -147,7 +147,7 @@ test("a list of printers is sorted by maker and model, in which numbers count as
 test("the line at the download of a hollow model does not say that it is solid", () => {
   const print_file = { format: "png", extension: "zip", media_type: "", is_read_by_printer: false } as const;
   const hollowed = { void_ml: 1, drains: [], resolution_mm: 0.25 };
-  const words = (language: Language): string => fileWords({ report: report({ print_file, hollowed }) }, PRINTERS, language);
+  const words = (language: Language): string => fileWords({ report: report({ print_file, models: [{ hollowed } as unknown as ModelReport] }) }, PRINTERS, language);
   expect(words(languageOf("en"))).toMatch(/The model prints hollow: no supports\.$/);
   const others = LANGUAGES.map((code) => words(languageOf(code)));
   expect(new Set(others).size).toBe(LANGUAGES.length);

@@ -22,9 +22,12 @@ export const uniforms = (patch: Partial<Report["uniform"]> = {}): Report["unifor
 
 export function report(patch: Partial<Report>): Report {
   return {
-    schema: 2,
-    model: { bytes: 0, crc32: 0 },
+    schema: 3,
     options: {},
+    plate: 0,
+    plate_count: 1,
+    models: [],
+    placements: [{ model: 0, plate: 0, x_mm: 0, y_mm: 0, turn_deg: 0 }],
     layers: 793,
     height_mm: 60,
     z_mm: [],
@@ -47,9 +50,6 @@ export function report(patch: Partial<Report>): Report {
     bins: 30_000,
     bin_mm: 0.002,
     layer_range_mm: [0.05, 0.15],
-    facets: 69_451,
-    weights_crc32: null,
-    hits: 5_218_540,
     uniform: uniforms(),
     exposure_s: [],
     overhead_s: 7.6,

@@ -1,10 +1,12 @@
 /** The result of settings: a plan with the options that it was made for, and what is drawn from it. */
 import type { Plan } from "../../api/index.js";
-import type { Metric, Options, Preview, Report } from "../../api/wire.js";
+import type { Metric, ModelReport, Options, Preview, Report } from "../../api/wire.js";
 
 /** A plan with the options it was made for. */
 export interface Result extends Plan {
   options: Options;
+  /** The selected model in the plan; undefined if it stands on no plate. */
+  own: Partial<ModelReport> | undefined;
   /** Thinnest and thickest layer allowed, mm: the ends of the colour scale. */
   limits: readonly [number, number];
 }
@@ -31,9 +33,12 @@ export interface Shown {
 }
 
 /** The height of the model without what is below it, mm. */
-export function ownHeight({ height_mm, supported }: Report): number {
-  return height_mm - (supported?.lift_mm ?? 0);
+export function ownHeight(report: Report): number {
+  return report.height_mm - liftOf(report);
 }
+
+/** How far supports lift the models of a plate, mm. */
+const liftOf = ({ models }: Report): number => Math.max(0, ...models.map(({ supported }) => supported?.lift_mm ?? 0));
 
 /** What is added to a model. */
 interface Added {
@@ -42,7 +47,7 @@ interface Added {
 }
 
 export function shownOf(report: Report | Preview, profile: Float32Array, added: Added | null = null): Shown {
-  const lift_mm = "lift_mm" in report ? report.lift_mm : (report.supported?.lift_mm ?? 0);
+  const lift_mm = "lift_mm" in report ? report.lift_mm : liftOf(report);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
   return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports: filled(added?.supports), voids: filled(added?.voids) };
 }

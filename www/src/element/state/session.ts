@@ -340,10 +340,12 @@ export class Session extends Models {
     this.#failed = false;
     const before = this.result?.report;
     const z = before?.z_mm[this.layer];
-    const result = { ...plan, options, limits: report.layer_range_mm };
+    const { isSeveral, selected } = this.plate;
+    const models = plan.plates.flatMap(({ report }) => report.models);
+    const own = models.find(({ model }) => model === selected);
+    const result = { ...plan, options, own, limits: report.layer_range_mm };
     this.result = result;
     this.#weightsOf = weights;
-    const { isSeveral, selected } = this.plate;
     // Copies have their own.
     this.shown = shownOf(report, plan.profile, isSeveral ? null : { supports: plan.supports?.[selected], voids: plan.voids?.[selected] });
     // Keep looking at the same height, or at the middle of a new model.

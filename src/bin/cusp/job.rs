@@ -1,0 +1,177 @@
+//! Jobs of the command line: models that are read, and what to do with them.
+
+use std::path::{Path, PathBuf};
+
+use cusp_slicer::job::{Backend, Job, JobOptions, JobReport, ModelOptions, StageProgress};
+use cusp_slicer::warning::Warning;
+
+use crate::arguments::{Choices, Settings};
+use crate::budget::Budget;
+use crate::files::Failure;
+use crate::job_file::{JobFile, JobModel, LoadedModels, with_copies};
+use crate::plate::Places;
+use crate::terminal::{open_gpu, say};
+use crate::usage::wrong_usage;
+
+/// A job whose models are read.
+pub struct LoadedJob {
+    pub paths: Vec<PathBuf>,
+    /// The file of weights of each model, if it has one.
+    pub weights: Vec<Option<PathBuf>>,
+    pub job: Job,
+    pub options: JobOptions,
+}
+
+impl LoadedJob {
+    /// Reads models, each with its copies, or the models of a job file.
+    pub fn read(
+        command: &str,
+        models: &[PathBuf],
+        places: &Places,
+        choices: &Choices,
+        budget: &Budget,
+    ) -> Result<Self, Failure> {
+        let file = JobFile::of(models)?;
+        let settings = match &file {
+            Some(file) => choices.settings_over(file.options.clone())?,
+            None => choices.settings()?,
+        };
+        let mut read = match file {
+            None if models.len() == 1 => {
+                let (path, copies) = with_copies(&models[0]);
+                let mut alone = Self::alone(&path, &settings, budget, 1)?;
+                alone.options.models[0].copies = copies.unwrap_or(places.copies());
+                alone
+            }
+            _ if settings.reading.weights.is_some() => {
+                let message = "weights belong to a model: name them beside it in a job file";
+                wrong_usage(command, message);
+            }
+            Some(file) => {
+                let read = file.read_models(models[0].parent())?;
+                Self::of(read, &file, &settings, budget)
+            }
+            None => {
+                let reading = settings.reading.options;
+                let models = models.iter().map(|model| {
+                    let (path, copies) = with_copies(model);
+                    let copies = copies.unwrap_or(places.copies());
+                    JobModel::new(path, copies, &reading)
+                });
+                let file = JobFile {
+                    models: models.collect(),
+                    ..JobFile::default()
+                };
+                let read = file.read_models(None)?;
+                Self::of(read, &file, &settings, budget)
+            }
+        };
+        read.options.arranging = places.arranging(read.options.arranging);
+        Ok(read)
+    }
+
+    /// Reads a single copy of a model, which takes its share of the budget: `workers` take some at a time.
+    pub fn alone(
+        model: &Path,
+        settings: &Settings,
+        budget: &Budget,
+        workers: usize,
+    ) -> Result<Self, Failure> {
+        let job = Job::new(vec![settings.reading.load(model)?]);
+        Ok(Self {
+            paths: vec![model.to_owned()],
+            weights: vec![None],
+            job: budget.bound(job, workers),
+            options: JobOptions {
+                models: vec![ModelOptions::default()],
+                ..JobOptions::of(settings.options.clone())
+            },
+        })
+    }
+
+    fn of(read: LoadedModels, file: &JobFile, settings: &Settings, budget: &Budget) -> Self {
+        Self {
+            paths: read.paths,
+            weights: read.weights,
+            job: budget.bound(Job::new(read.models), 1),
+            options: JobOptions {
+                options: settings.options.clone(),
+                models: file.models.iter().map(JobModel::own).collect(),
+                arranging: file.arranging,
+                placements: file.placements.clone(),
+            },
+        }
+    }
+
+    /// Arranges the copies, also a single one: without a place it would stand in the middle, on no plate.
+    pub fn arrange(&mut self) -> Result<(), Failure> {
+        self.options.placements.clear();
+        if let [one] = &self.options.models[..]
+            && one.copies == 1
+        {
+            let places = self.job.arrange(&self.options);
+            self.options.placements = places.map_err(|error| self.failure(&error))?;
+        }
+        Ok(())
+    }
+
+    /// Plans all plates.
+    pub fn plan(&mut self, progress: &mut StageProgress<'_>) -> Result<JobReport, Failure> {
+        if self.options.options.backend == Backend::Gpu {
+            open_gpu(&mut self.job);
+        }
+        let report = pollster::block_on(self.job.plan(&self.options, progress));
+        report.map_err(|error| self.failure(&error))
+    }
+
+    /// A failure of the library, whose message names models by their files in place of their numbers.
+    pub fn failure(&self, error: &cusp_slicer::Error) -> Failure {
+        let [only] = &self.paths[..] else {
+            return Failure::in_file(Path::new("plate"), error)
+                .renamed(|message| self.named(message));
+        };
+        Failure::in_file(only, error)
+    }
+
+    /// A message with the files of models in place of their numbers.
+    fn named(&self, message: &str) -> String {
+        let names = self.paths.iter().enumerate();
+        // From the last, so that model 12 is not model 1 with a 2.
+        names
+            .rev()
+            .fold(message.to_owned(), |message, (model, path)| {
+                message.replace(&format!("model {}", model + 1), &path.display().to_string())
+            })
+    }
+
+    pub fn name(&self, model: usize) -> std::path::Display<'_> {
+        self.paths[model].display()
+    }
+
+    /// Says the warnings about models, which several are named by, and about plates.
+    pub fn warn(&self, report: &JobReport) {
+        for plate in &report.plates {
+            for model in &plate.models {
+                for warning in &model.warnings {
+                    self.say_of(model.model, warning);
+                }
+            }
+            for warning in &plate.warnings {
+                say(&format!("warning: {warning}"));
+            }
+        }
+    }
+
+    fn say_of(&self, model: usize, warning: &Warning) {
+        match &self.paths[..] {
+            [_] => say(&format!("warning: {warning}")),
+            _ => say(&format!("warning: {}: {warning}", self.name(model))),
+        }
+    }
+}
+
+impl Places {
+    fn copies(&self) -> usize {
+        self.copies.map_or(1, |copies| copies as usize)
+    }
+}
