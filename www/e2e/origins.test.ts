@@ -1,5 +1,5 @@
 /** The package on another origin than the page, as from a CDN, and workers that cannot start. */
-import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { cp, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import type { Browser, Page } from "playwright-core";
@@ -90,6 +90,42 @@ test("the element and the headless slicer come from another origin, under a stri
 test("in a sandboxed frame, to which its own host is another origin", async () => {
   const complaints = await open("frame.html", `${policyFor(origin)}; frame-src *`);
   await page.frameLocator("iframe").locator("cusp-slicer[state=done]").waitFor();
+  expect(complaints).toEqual([]);
+});
+
+/** A classic script, which reads at the end of its address what to load, and loads it from its own origin alone. */
+const LIKE_TURBOPACK = `
+const address = decodeURIComponent(location.hash.slice(1));
+if (new URL(address).origin !== location.origin) throw new Error("from another origin");
+importScripts(address);`;
+
+/** Writes the package into a folder as Turbopack builds it: its workers start from such a script. */
+async function buildLikeTurbopack(built: string): Promise<void> {
+  await cp(await builtPackage(), built, { recursive: true });
+  await writeFile(join(built, "turbopack.js"), LIKE_TURBOPACK);
+  const module = /new URL\(`\.\/worker\.js`,import\.meta\.url\),\{type:`module`,/;
+  const classic = "new URL(`./turbopack.js#${encodeURIComponent(new URL(`./worker.js`,import.meta.url))}`,import.meta.url),{";
+  for (const name of (await readdir(built)).filter((name) => name.endsWith(".js"))) {
+    const code = await readFile(join(built, name), "utf8");
+    const isWorker = name === "worker.js";
+    await writeFile(join(built, name), isWorker ? code.replaceAll("import.meta.url", "location.href") : code.replace(module, () => classic));
+  }
+}
+
+test("a worker starts that reads at the end of its address what to load, as Turbopack's does", async () => {
+  const built = join(folder, "turbopack");
+  await buildLikeTurbopack(built);
+  const other = await serveFolder(built, "", ALLOW_ALL);
+  closing.push(() => other.close());
+  await writeFile(
+    join(folder, "turbopack.html"),
+    `<!doctype html><title>Shop</title><script type="module" src="${other.address}element.js"></script><cusp-slicer src="ball.stl"></cusp-slicer>`,
+  );
+  const complaints = await open("turbopack.html", policyFor(new URL(other.address).origin));
+  await page.waitForSelector("cusp-slicer[state=done]");
+  expect(await Promise.all(page.workers().map((worker) => worker.evaluate(() => location.href)))).toContain(
+    `${other.address}turbopack.js#${encodeURIComponent(`${other.address}worker.js`)}`,
+  );
   expect(complaints).toEqual([]);
 });
 

@@ -76,13 +76,18 @@ function bundled(): Script {
 /** A script that a worker may start from: pages start none from another origin, but theirs may import one from there, if that allows it (CORS). */
 function fromHere(script: Script): Script {
   const { address, options } = script;
-  const { protocol, origin } = new URL(address, location.href);
+  const { href, protocol, origin } = new URL(address, location.href);
   if (!/^https?:$/.test(protocol) || origin === globalThis.origin) return script;
-  const code = options.type === "module" ? importing(address) : `importScripts(${JSON.stringify(address)});`;
+  const code = options.type === "module" ? importing(href) : running(href);
   const blob = new Blob([code], { type: "text/javascript" });
   // In a sandboxed frame Chromium starts no module from a blob, and WebKit reads no file in a worker from a `data:`.
   return { address: URL.createObjectURL(blob), options: { ...options, type: "classic" } };
 }
+
+/** Runs a classic script, to which `location` is its own, not the blob's: at its end Turbopack's reads what to load, and loads it from that origin alone. */
+const running = (address: string): string => `
+Object.defineProperty(self, "location", { value: new URL(${JSON.stringify(address)}) });
+importScripts(location.href);`;
 
 /** Imports a module, and hands it the messages that have arrived by then. */
 const importing = (address: string): string => `
