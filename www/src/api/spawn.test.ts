@@ -33,6 +33,21 @@ test("a worker starts from where the bundler has put it, as a module, and the pa
   expect(wasmAddress(null)).toMatch(/\/pkg\/cusp_slicer_bg\.wasm$/);
 });
 
+test("what the bundler has put there stays for the next worker, and is found from a worker that is nowhere", () => {
+  const revoked = vi.spyOn(URL, "revokeObjectURL").mockClear();
+  spawnWorker(null);
+  started.dispatchEvent(new Event("message"));
+  expect(revoked).not.toHaveBeenCalled();
+  // Turbopack's addresses have no origin.
+  class Relative extends URL {
+    override get href(): string {
+      return this.protocol === "file:" ? this.pathname : super.href;
+    }
+  }
+  vi.stubGlobal("URL", Relative);
+  expect(wasmAddress(null)).toMatch(/^https:\/\/shop\.test\/.*\/pkg\/cusp_slicer_bg\.wasm$/);
+});
+
 test.each([
   ["/cusp", "https://shop.test/cusp/"],
   ["cusp/", "https://shop.test/cusp/"],

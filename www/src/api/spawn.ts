@@ -35,7 +35,8 @@ export function spawnWorker(assets: Assets): WorkerHandle {
   } catch (error) {
     throw broke("worker-failed", error);
   }
-  worker.addEventListener("message", () => URL.revokeObjectURL(start.address), { once: true });
+  // The blobs of bundlers start other workers, too.
+  if (start !== script) worker.addEventListener("message", () => URL.revokeObjectURL(start.address), { once: true });
   listenTo(worker);
   return {
     remote: Comlink.wrap<SlicerWorker>(worker),
@@ -52,7 +53,10 @@ export function spawnWorker(assets: Assets): WorkerHandle {
 /** The address of the WebAssembly module. */
 export const wasmAddress = (assets: Assets): string =>
   // Bundlers recognise this exact form and emit the file.
-  assets === null ? new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url).href : within(assets, "cusp_slicer_bg.wasm");
+  assets === null ? absolute(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) : within(assets, "cusp_slicer_bg.wasm");
+
+/** An address for a worker, which may be from a blob and resolve none: Turbopack's has no origin. */
+const absolute = ({ href }: URL): string => new URL(href, globalThis.document?.baseURI).href;
 
 const within = (folder: string | URL, name: string): string => new URL(name, new URL(String(folder).replace(/\/?$/, "/"), document.baseURI)).href;
 
