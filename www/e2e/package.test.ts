@@ -79,27 +79,6 @@ async function priced(served: Served, look: (page: Page) => Promise<void> = asyn
   });
 }
 
-/** Files that put the guide's components on a page. React's renders anew at each event, which it counts. */
-const REACT = {
-  "src/main.js": `
-import { createElement } from "react";
-import { createRoot } from "react-dom/client";
-import Slicer from "./Slicer.jsx";
-const root = createRoot(document.querySelector("#root"));
-const counts = document.body.dataset;
-for (const name of ["plan", "price", "check", "change", "error"]) {
-  document.addEventListener("cusp-" + name, () => {
-    counts[name] = String(Number(counts[name] ?? 0) + 1);
-    root.render(createElement(Slicer));
-  });
-}
-root.render(createElement(Slicer));`,
-};
-
-/** Objects that are new at each render. */
-const LITERALS = `printer={{ pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] }}
-        resins={[{ name: "Grey" }]} prices={{ currency: "EUR", setup: 4 }} limits={{ wall_mm: 0.5 }}`;
-
 const SVELTE = {
   "vite.config.js": `
 import { svelte } from "@sveltejs/vite-plugin-svelte";
@@ -141,17 +120,123 @@ test("built by Vite, with a base on another origin", async () => {
   await worksApart(await vite(root, { base: others.address }), others);
 });
 
-test("the guide's component for React, on Vite's development server, which bundles packages beforehand; however often it is rendered, there is one plan", async () => {
+/** A module that counts the element's events on the page, and renders at each. */
+const COUNT = `
+export function count(render) {
+  const counts = document.body.dataset;
+  for (const name of ["plan", "price", "check", "change", "error"]) {
+    document.addEventListener("cusp-" + name, () => {
+      counts[name] = String(Number(counts[name] ?? 0) + 1);
+      render();
+    });
+  }
+}`;
+
+/** A framework's page that renders the guide's component anew at each of the element's events. */
+interface Rendering {
+  framework: string;
+  /** Writes a property whose object is new each time. */
+  property(name: string, literal: string): string;
+  /** What the component imports for that. */
+  imports?: string;
+  files: Readonly<Record<string, string>>;
+}
+
+const RENDERINGS: readonly Rendering[] = [
+  {
+    framework: "React",
+    property: (name, literal) => `${name}={${literal}}`,
+    files: {
+      "src/main.js": `
+import { createElement } from "react";
+import { createRoot } from "react-dom/client";
+import { count } from "./count.js";
+import Slicer from "./Slicer.jsx";
+const root = createRoot(document.querySelector("#root"));
+const render = () => root.render(createElement(Slicer));
+count(render);
+render();`,
+    },
+  },
+  {
+    framework: "Vue",
+    property: (name, literal) => `:${name}="(renders, ${literal})"`,
+    imports: `import { renders } from "./renders.js";`,
+    files: {
+      "src/renders.js": `
+import { ref } from "vue";
+import { count } from "./count.js";
+export const renders = ref(0);
+count(() => renders.value++);`,
+      "src/main.js": `
+import { createApp } from "vue";
+import Slicer from "./Slicer.vue";
+createApp(Slicer).mount("#root");`,
+    },
+  },
+  {
+    framework: "Svelte",
+    property: (name, literal) => `${name}={(own.renders, ${literal})}`,
+    imports: `import { own } from "./own.svelte.js";`,
+    files: {
+      ...SVELTE,
+      "src/own.svelte.js": `
+import { count } from "./count.js";
+export const own = $state({ renders: 0 });
+count(() => own.renders++);`,
+    },
+  },
+  {
+    framework: "Solid",
+    property: (name, literal) => `prop:${name}=\${() => (renders(), ${literal})}`,
+    // The guide has no component for it, and its markup needs no compiler here.
+    files: {
+      "src/main.js": `
+import { createSignal } from "solid-js";
+import html from "solid-js/html";
+import { render } from "solid-js/web";
+import "cusp-slicer/solid";
+import { count } from "./count.js";
+import { quote } from "./quote.js";
+const [price, setPrice] = createSignal("");
+const [renders, setRenders] = createSignal(0);
+count(() => setRenders(renders() + 1));
+const priced = ({ detail }) => setPrice(quote(detail.report));
+render(
+  () => html\`<cusp-slicer printer="saturn-3-ultra" on:cusp-plan=\${priced}></cusp-slicer><output>\${price}</output>\`,
+  document.querySelector("#root"),
+);`,
+    },
+  },
+];
+
+/** Objects that are new at each render. */
+const LITERALS = {
+  printer: "{ pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] }",
+  resins: "[{ name: 'Grey' }]",
+  prices: "{ currency: 'EUR', setup: 4 }",
+  limits: "{ wall_mm: 0.5 }",
+};
+
+const renderings = RENDERINGS.map((it) => [it.framework, it] as const);
+
+test.each(renderings)("rendered by %s at each event, on Vite's development server, which bundles packages beforehand, there is one plan", async (framework, it) => {
+  const { property, imports = "", files } = it;
+  const properties = Object.entries(LITERALS).map(([name, literal]) => property(name, literal)).join(" ");
+  const own = Object.entries({ ...(await snippets(framework)).files, ...files }).map(([path, text]) => {
+    const code = text.replace("import { quote }", `${imports}\nimport { quote }`);
+    return [path, code.replace('printer="saturn-3-ultra"', () => properties)];
+  });
   // The browser asks for an icon, which this server does not have.
-  const icon = `<link rel="icon" href="data:," />`;
-  const root = await component("React", "development", { ...REACT, "index.html": page("").replace("</head>", `${icon}</head>`) });
-  const own = join(root, "src/Slicer.jsx");
-  await writeFile(own, (await readFile(own, "utf8")).replace('printer="saturn-3-ultra"', LITERALS));
+  const index = page("").replace("</head>", `<link rel="icon" href="data:," /></head>`);
+  const root = await component(framework, "development", { ...Object.fromEntries(own), "src/count.js": COUNT, "index.html": index });
   const server = await createServer({ root, logLevel: "error", server: { host: "127.0.0.1", port: await freePort() } });
   await server.listen();
   const [address = ""] = server.resolvedUrls?.local ?? [];
   await priced({ address, close: () => server.close() }, async (page) => {
     await page.waitForSelector("body[data-check]");
+    // By then whatever the last render began has ended.
+    await page.waitForTimeout(500);
     expect(await page.evaluate(() => Object.fromEntries(Object.entries(document.body.dataset)))).toEqual({ plan: "1", price: "1", check: "1" });
   });
 });
