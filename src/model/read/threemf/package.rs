@@ -1,5 +1,7 @@
 //! The zip of a 3MF, and its parts as streams.
 
+use std::cell::Cell;
+
 use flate2::{Decompress, FlushDecompress, Status};
 use rawzip::{CompressionMethod, ZipArchive, ZipArchiveEntryWayfinder, ZipSliceArchive};
 
@@ -7,15 +9,18 @@ use super::ThreeMfError;
 use crate::crc::Crc32;
 use crate::model::read::text::named;
 
-/// A part may always inflate to this many bytes,
-const ALWAYS_BYTES: u64 = 1 << 26;
-/// and to this many times its size. The text of a mesh inflates five- to tenfold.
+/// The parts that are read may always inflate to this many bytes in all,
+const ALWAYS_BYTES: u64 = 1 << 23;
+/// and to this many times the size of the package. The text of a mesh inflates five- to tenfold.
 const MOST_RATIO: u64 = 200;
 
 /// The parts of a 3MF.
 pub struct Package<'a> {
     zip: ZipSliceArchive<&'a [u8]>,
     entries: Vec<Entry>,
+    /// Bytes that parts may inflate to, and how many of them are left.
+    most_bytes: u64,
+    left_bytes: Cell<u64>,
 }
 
 struct Entry {
@@ -44,7 +49,13 @@ impl<'a> Package<'a> {
                 place: record.wayfinder(),
             });
         }
-        Ok(Self { zip, entries })
+        let most_bytes = ALWAYS_BYTES.max(MOST_RATIO * bytes.len() as u64);
+        Ok(Self {
+            zip,
+            entries,
+            most_bytes,
+            left_bytes: Cell::new(most_bytes),
+        })
     }
 
     /// Whether a part has a name that ends so, whatever the case of its letters.
@@ -94,7 +105,8 @@ impl<'a> Package<'a> {
         Ok(Part {
             name,
             inflater,
-            most_bytes: ALWAYS_BYTES.max(MOST_RATIO * rest.len() as u64),
+            most_bytes: self.most_bytes,
+            left_bytes: &self.left_bytes,
             rest,
             claim: found.claim_verifier(),
             crc: Crc32::default(),
@@ -109,6 +121,8 @@ pub struct Part<'a> {
     inflater: Option<Box<Decompress>>,
     rest: &'a [u8],
     most_bytes: u64,
+    /// Bytes that this part and those after it may inflate to.
+    left_bytes: &'a Cell<u64>,
     /// Length and checksum that it must have in the end.
     claim: rawzip::ZipVerification,
     crc: Crc32,
@@ -131,12 +145,12 @@ impl Part<'_> {
         };
         self.crc.update(&into[..count]);
         self.length += count as u64;
-        if self.length > self.most_bytes {
-            return Err(ThreeMfError::TooLarge {
+        let left_bytes = self.left_bytes.get().checked_sub(count as u64);
+        self.left_bytes
+            .set(left_bytes.ok_or_else(|| ThreeMfError::TooLarge {
                 part: self.name.clone(),
                 most_bytes: self.most_bytes,
-            });
-        }
+            })?);
         let is_whole =
             self.claim.crc == self.crc.checksum() && self.claim.uncompressed_size == self.length;
         if count == 0 && !is_whole {
