@@ -356,13 +356,8 @@ async fn a_lost_device_hands_its_work_to_the_cpu() {
     };
     let report = slicer.plan(&options, &mut lose_it).await.unwrap();
     let warnings = report.all_warnings();
-    assert!(
-        warnings
-            .iter()
-            .any(|it| matches!(it, Warning::GpuFailed { .. })),
-        "{:?}",
-        warnings
-    );
+    let has_failed = |it: &Warning| matches!(it, Warning::GpuFailed { .. });
+    assert!(warnings.iter().any(has_failed), "{warnings:?}");
     assert_eq!(report.backend, "cpu");
 }
 

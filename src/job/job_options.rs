@@ -5,6 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::Options;
 use crate::arrange::{ArrangeError, Arranging};
 use crate::plan::HeightRange;
+use crate::prepare::{Hollowing, Supporting};
 
 /// How a model of a plate differs from the options of the job, and how often it is printed.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -20,6 +21,12 @@ pub struct ModelOptions {
     /// Height to which the model is scaled uniformly. That of the options if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_mm: Option<f64>,
+    /// How this model is hollowed. As the options say if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hollow: Option<Hollowing>,
+    /// How this model is supported. As the options say if absent.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supports: Option<Supporting>,
     /// Maximum error of a layer on this model, in the metric's unit. That of the options if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -35,6 +42,8 @@ impl Default for ModelOptions {
             copies: 1,
             rotation: None,
             height_mm: None,
+            hollow: None,
+            supports: None,
             tolerance: None,
             ranges: Vec::new(),
         }
@@ -153,6 +162,8 @@ impl JobOptions {
         let mut options = self.options.clone();
         options.rotation = own.rotation.or(options.rotation);
         options.height_mm = own.height_mm.or(options.height_mm);
+        options.hollow = own.hollow.or(options.hollow);
+        options.supports = own.supports.or(options.supports);
         options.tolerance = own.tolerance.or(options.tolerance);
         options.ranges.extend(own.ranges);
         options

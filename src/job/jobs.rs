@@ -10,6 +10,7 @@ use super::parts::{Layering, Resolved, Target};
 use super::planned::{Planned, PlannedModel};
 use super::prepared::Prepared;
 use super::report::{Origin, SCHEMA, report_of};
+use super::resolve::check_prepared;
 use super::sampled::Sampler;
 use super::shapes::Shape;
 use super::stage::{Stage, StageProgress, ms_since, report as tell};
@@ -263,7 +264,7 @@ impl Job {
         };
         let resolved = shared.resolve()?;
         check_own(options, &resolved)?;
-        check_prepared(&resolved, is_alone)?;
+        check_own_prepared(options, &resolved, self.models.len())?;
         timings.load += self.models.iter().map(|model| model.load_ms).sum::<f64>();
         if is_alone {
             self.prepare(options, &resolved, timings, progress)?;
@@ -280,6 +281,14 @@ impl Job {
                     plate: 0,
                 }],
             });
+        }
+        if resolved.output.filament.is_some() {
+            // Their slicers place copies themselves.
+            return Err(OptionsError::Contradictory {
+                option: resolved.output.format.name(),
+                other: "models",
+            }
+            .into());
         }
         let screen = screen_of(&resolved.sampling)?;
         self.prepare(options, &resolved, timings, progress)?;
@@ -417,11 +426,19 @@ fn check_own(options: &JobOptions, resolved: &Resolved) -> Result<(), OptionsErr
     Ok(())
 }
 
-/// Refuses what is placed by hand where there are several models or copies, each of which has a frame of its own.
-fn check_prepared(resolved: &Resolved, is_alone: bool) -> Result<(), OptionsError> {
+/// Checks the voids and supports that models have of their own. What is placed by hand for all is refused where there are several models,
+/// each of which has a frame of its own.
+fn check_own_prepared(
+    options: &JobOptions,
+    resolved: &Resolved,
+    models: usize,
+) -> Result<(), OptionsError> {
+    for own in &options.models {
+        check_prepared(own.hollow.as_ref(), own.supports.as_ref())?;
+    }
     let hollow = resolved.sampling.hollow.as_ref();
     let option = match &resolved.sampling.supports {
-        _ if is_alone => return Ok(()),
+        _ if models == 1 => return Ok(()),
         Some(supports) if supports.points.is_some() => "points",
         _ if hollow.is_some_and(|hollow| !hollow.drains.is_empty()) => "drains",
         _ => return Ok(()),

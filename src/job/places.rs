@@ -160,9 +160,13 @@ impl Job {
         model: usize,
         turns: u32,
     ) -> Sampling {
+        let own = options.of_model(model);
+        let shared = resolved.sampling.clone();
         Sampling {
             pose: self.pose_of(options, resolved, model).turned(turns),
-            ..resolved.sampling.clone()
+            hollow: own.hollow.or(shared.hollow),
+            supports: own.supports.or(shared.supports),
+            ..shared
         }
     }
 

@@ -96,24 +96,7 @@ impl Options {
             (None, None) => Raster::Around { pixels: self.rays },
             (Some(_), None) | (None, Some(_)) => return Err(OptionsError::PixelsWithoutPitch),
         };
-        let checks = [
-            self.hollow.as_ref().map(Hollowing::check),
-            self.supports.as_ref().map(Supporting::check),
-        ];
-        if let Some(Err(BadLength {
-            option,
-            value_mm,
-            least_mm,
-            most_mm,
-        })) = checks.into_iter().flatten().find(Result::is_err)
-        {
-            return Err(OptionsError::BadLength {
-                option,
-                value_mm,
-                least_mm,
-                most_mm,
-            });
-        }
+        check_prepared(self.hollow.as_ref(), self.supports.as_ref())?;
         Ok(Sampling {
             hollow: self.hollow.clone(),
             supports: self.supports.clone(),
@@ -411,4 +394,35 @@ const ROUNDING: f64 = 1e-6;
 fn is_multiple(length_mm: f64, of_mm: f64) -> bool {
     let quotient = length_mm / of_mm;
     quotient.round() >= 1.0 && (quotient - quotient.round()).abs() <= ROUNDING
+}
+
+/// Checks the lengths of voids and supports.
+///
+/// # Errors
+/// [`OptionsError::BadLength`].
+pub(super) fn check_prepared(
+    hollow: Option<&Hollowing>,
+    supports: Option<&Supporting>,
+) -> Result<(), OptionsError> {
+    let checks = [
+        hollow.map(Hollowing::check),
+        supports.map(Supporting::check),
+    ];
+    let bad = checks.into_iter().flatten().find_map(Result::err);
+    bad.map_or(
+        Ok(()),
+        |BadLength {
+             option,
+             value_mm,
+             least_mm,
+             most_mm,
+         }| {
+            Err(OptionsError::BadLength {
+                option,
+                value_mm,
+                least_mm,
+                most_mm,
+            })
+        },
+    )
 }

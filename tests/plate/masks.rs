@@ -11,7 +11,7 @@ use super::{job, options, pixels, plan, plate, supported};
 use crate::common::{load, quiet, solids};
 use cusp_slicer::job::{Error, OptionsError};
 use cusp_slicer::model::FacetClass;
-use cusp_slicer::prepare::Supporting;
+use cusp_slicer::prepare::{SupportPoint, Supporting};
 use glam::Vec3;
 
 /// The print file of a plate.
@@ -89,15 +89,29 @@ fn turned_copies_have_the_same_supports() {
     assert!(!shown.is_empty());
     assert_eq!(several.positions_of(0, FacetClass::Support).unwrap(), shown);
     assert!(several.positions_of(1, FacetClass::Support).is_err());
-    // By hand they are for one model, whose frame is known.
-    let by_hand = Options {
+    // By hand they are in the frame of the model, and copies follow.
+    let by_hand = |points: &[SupportPoint]| Options {
         supports: Some(Supporting {
-            points: Some(of_one.points.clone()),
-            ..Supporting::default()
+            points: Some(points.to_vec()),
+            ..supported().supports.unwrap()
         }),
         ..supported()
     };
-    let refused = plan(&mut several, &job(by_hand, &[3])).unwrap_err();
+    let few = &of_one.points[..2];
+    let turned = JobOptions {
+        options: by_hand(few),
+        ..options
+    };
+    let report = plan(&mut several, &turned).unwrap().plates.remove(0);
+    let at = |points: &[SupportPoint]| points.iter().map(|it| it.at_mm).collect::<Vec<_>>();
+    assert_eq!(
+        at(&report.models[0].supported.as_ref().unwrap().points),
+        at(few)
+    );
+    // Of several models each has its own.
+    let ball = solids::sphere(3.0, 3);
+    let mut both = plate(&[&bar, &ball]);
+    let refused = plan(&mut both, &job(by_hand(few), &[1, 1])).unwrap_err();
     assert_eq!(
         refused.to_string(),
         Error::from(OptionsError::Contradictory {
@@ -105,6 +119,18 @@ fn turned_copies_have_the_same_supports() {
             other: "models"
         })
         .to_string()
+    );
+    let mut own = job(super::options(), &[2, 1]);
+    own.models[0].supports = by_hand(few).supports;
+    let report = plan(&mut both, &own).unwrap().plates.remove(0);
+    let [bar, ball] = &report.models[..] else {
+        panic!("{report:?}");
+    };
+    assert_eq!(at(&bar.supported.as_ref().unwrap().points), at(few));
+    assert_eq!(ball.supported, None);
+    assert_eq!(
+        [bar.size_mm[2], ball.size_mm[2]].map(|mm| mm.round()),
+        [2.0, 6.0]
     );
 }
 

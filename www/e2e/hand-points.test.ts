@@ -7,7 +7,7 @@ import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
-import { sphere } from "./solids.js";
+import { prism, sphere } from "./solids.js";
 
 const start = pages(SOFTWARE_GL);
 
@@ -199,4 +199,35 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
   await settled(page);
   expect(await asked()).toEqual([undefined, {}]);
   expect((await shown())[0]).toBe("thickness");
+});
+
+test("of several models each has points of its own, placed on it alone; its copies follow, and it keeps them while others are selected", async () => {
+  const page = await start("?backend=cpu&printer=mars-4-ultra&rays=512&supports=light", SMALL);
+  await drop(page, ball, { name: "block.stl", bytes: prism(12, 8).bytes });
+  await state(page, "done");
+  const points = (): Promise<number[]> =>
+    page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models.map(({ supported }) => supported?.points.length ?? 0) ?? []);
+  const before = await points();
+  expect(Math.min(...before)).toBeGreaterThan(0);
+  const tool = page.getByRole("radio", { name: "Support points" });
+  await tool.click();
+  await page.locator("cusp-model section.points").waitFor();
+  // The ball alone, in the middle.
+  expect(await page.locator("cusp-view").evaluate((it: CuspView) => it.copies.length)).toBe(0);
+  // To clear them is for a model alone: supports are asked for on all.
+  expect(await page.locator("section.points").getByRole("button", { name: "Clear" }).count()).toBe(0);
+  await page.mouse.click(...(await placeIn(page.locator("cusp-view"), 0.5, 0.55)));
+  await settled(page);
+  const after = [(before[0] ?? 0) + 1, before[1]];
+  expect(await points()).toEqual(after);
+  await page.getByRole("button", { name: "One more: Copies of ball.stl" }).click();
+  await settled(page);
+  expect(await points()).toEqual(after);
+  await page.getByRole("button", { name: "block.stl", exact: true }).click();
+  await settled(page);
+  expect(await points()).toEqual(after);
+  await page.getByRole("button", { name: "ball.stl", exact: true }).click();
+  await settled(page);
+  expect(await points()).toEqual(after);
+  expect(query(page).get("points")?.split(";")).toHaveLength(after[0] ?? 0);
 });

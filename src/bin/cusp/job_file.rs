@@ -6,6 +6,7 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{LoadedModel, ModelOptions, Options, Placement};
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
+use cusp_slicer::prepare::{Hollowing, Supporting};
 use serde::{Deserialize, Serialize};
 
 use crate::files::{Failure, Reading, WeightsFile, is_standard, read_json};
@@ -44,6 +45,12 @@ pub struct JobModel {
     /// Height to which the model is scaled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_mm: Option<f64>,
+    /// How this model is hollowed.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub hollow: Option<Hollowing>,
+    /// How this model is supported.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub supports: Option<Supporting>,
     /// Maximum error of a layer on this model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub tolerance: Option<f64>,
@@ -89,6 +96,8 @@ impl JobModel {
             copies: own.copies,
             rotation: own.rotation,
             height_mm: own.height_mm,
+            hollow: own.hollow.clone(),
+            supports: own.supports.clone(),
             tolerance: own.tolerance,
             ranges: own.ranges.clone(),
             weights: None,
@@ -103,6 +112,8 @@ impl JobModel {
             copies: self.copies,
             rotation: self.rotation,
             height_mm: self.height_mm,
+            hollow: self.hollow.clone(),
+            supports: self.supports.clone(),
             tolerance: self.tolerance,
             ranges: self.ranges.clone(),
         }

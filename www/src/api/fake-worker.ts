@@ -56,7 +56,7 @@ export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
       return {
         report: { schema: 3, print_time_s: 60, resin_ml: 3, plates: Array.from({ length: plates }, (_, plate) => report(plate)) },
         profiles: Array.from({ length: plates }, (_, plate) => Float32Array.of(plate + 1)),
-        ...(options?.supports !== undefined && { supports: own.map((_, model) => Float32Array.of(model)) }),
+        ...([options, ...own].some((it) => it?.supports !== undefined) && { supports: own.map((_, model) => Float32Array.of(model)) }),
       };
     },
     tradeoff: async (plate, { options }, points) => {

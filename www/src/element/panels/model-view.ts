@@ -51,6 +51,7 @@ export const fetchView = fetched(() => import("../../view/cusp-view.js"));
 
 /** Always the same list: another one would count as a change. */
 const NO_POINTS: CuspView["points"] = [];
+const NO_COPIES: readonly Standing[] = [];
 
 export interface Scaled {
   readonly height_mm: number;
@@ -172,7 +173,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const isPainting = tool === "paint";
     const isPlacing = places(tool);
     const isEditing = isPainting || isPlacing;
-    const isPlate = this.copies.length > 0;
+    // A model is edited alone; its copies follow.
+    const isPlate = this.copies.length > 0 && !isEditing;
     const walls_mm = isEditing || isPlate ? null : this.walls_mm;
     const isMeasured = this.look === "distance" && !isEditing && walls_mm === null;
     const isPrinted = isMeasured || (this.look === "printed" && !isEditing && walls_mm === null);
@@ -232,8 +234,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .heat=${heat}
               .least=${Number(this.settings.weightMin)}
               .brush=${this.brush}
-              .copies=${this.standing}
-              .selected=${this.#selected}
+              .copies=${isPlate ? this.standing : NO_COPIES}
+              .selected=${isPlate ? this.#selected : null}
               @cusp-move=${(event: CustomEvent<MoveDetail>) => this.#tell(event)}
               @cusp-select=${this.#pressed}
               @cusp-paint=${this.#painted}
@@ -339,12 +341,14 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.settings.saliency === "on";
   }
 
-  /** The tools that there is something for: copies to move, or a model of its own that is to be printed in resin. */
+  /** The tools that there is something for: copies to move, and points to place on a model that is to be printed in resin. */
   get #offered(): ReadonlySet<Tool> {
     const { settings: { format, wall }, edited } = this;
-    if (this.copies.length > 0) return new Set(["move"]);
-    if (edited === null || isFilament(format)) return new Set();
-    return new Set(wall.trim() === "" ? ["supports"] : ["supports", "drains"]);
+    const offered = new Set<Tool>(this.copies.length > 0 ? ["move"] : []);
+    if (edited === null || isFilament(format)) return offered;
+    offered.add("supports");
+    if (wall.trim() !== "") offered.add("drains");
+    return offered;
   }
 
   /** What places points; null while it is not needed, or not there. */

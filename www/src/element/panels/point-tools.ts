@@ -36,7 +36,7 @@ import { lineIcon } from "../styles/shared.js";
 /** What is read and changed of a session. */
 export type Edited = Pick<
   Session,
-  "settings" | "options" | "model" | "result" | "isCurrent" | "busy" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change" | "write"
+  "settings" | "options" | "model" | "plate" | "result" | "isCurrent" | "busy" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change" | "write"
 >;
 
 /** The points that a tool places, and the place of the selected one. */
@@ -115,7 +115,7 @@ export class PointEditor {
       ${this.#selection(tool, list, place, words, language)}
       <div class="actions">
         ${button(words.automatically, true, () => this.#change(automatic(points, session.settings)))}
-        ${button(words.clear, list.length > 0, () => this.#change(cleared(kind)))}
+        ${session.plate.entries.length > 1 ? nothing : button(words.clear, list.length > 0, () => this.#change(cleared(kind)))}
         ${stepButtons(session, language)}
       </div>
       ${kind === "drains"
@@ -225,8 +225,10 @@ export class PointEditor {
   }
 
   /** Every edit is an undo step of its own. */
-  #change(change: Partial<Settings>): void {
-    this.#session.change(change, `points ${++this.#edits}`);
+  #change({ supports, ...change }: Partial<Settings>): void {
+    // Whether there are supports holds for all models: the last point of one that goes leaves the others theirs.
+    const isShared = supports === "none" && this.#session.plate.entries.length > 1;
+    this.#session.change({ ...change, ...(supports !== undefined && !isShared && { supports }) }, `points ${++this.#edits}`);
   }
 }
 

@@ -6,13 +6,13 @@ import type { Options, ReadOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import { choose, weightsName } from "./choice.js";
 import type { Download, Host, SlicerCalls } from "./host.js";
-import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Posed } from "./plate.js";
+import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Pose, type Posed } from "./plate.js";
 import { Preferences } from "./preferences.js";
 import { readPrinter } from "./printer.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
 import { aboutSelected, type ModelCalls } from "./selected.js";
-import { withoutPlaced, type Settings } from "./settings.js";
+import { check, withoutPlaced, type Settings } from "./settings.js";
 
 /** What the core finds wrong with a printer's description. */
 const OF_PRINTER: ReadonlySet<string> = new Set(["bad-options", "bad-printer"]);
@@ -51,6 +51,7 @@ export abstract class Models extends Preferences {
         replate: () => this.replate(),
         show: (plan) => this.showPlate(plan),
         selected: (entry) => this.#select(entry),
+        own: (pose) => this.#ownOf(pose),
       },
       slicer,
     );
@@ -248,7 +249,7 @@ export abstract class Models extends Preferences {
   #select(entry: Entry): void {
     this.left(false);
     const { model, weights, pose } = entry;
-    this.settings = { ...this.settings, ...pose };
+    this.settings = posedSettings(this.settings, pose);
     this.model = model;
     this.weights = weights;
     this.positions = null;
@@ -284,9 +285,17 @@ export abstract class Models extends Preferences {
 
   /** The pose that the settings say; as options, unless a setting is invalid. */
   #posed(): Posed {
-    const { options } = this;
-    const { rotation, height } = this.settings;
-    return { pose: { rotation, height }, ...(options !== null && { own: ownOf(options) }) };
+    const { rotation, height, points, fill, drains, drain } = this.settings;
+    const pose = { rotation, height, points, fill, drains, drain };
+    const own = this.#ownOf(pose);
+    return { pose, ...(own !== null && { own }) };
+  }
+
+  /** The options of a model in a pose, by the settings now; null if one is invalid. */
+  #ownOf(pose: Pose): Own | null {
+    const { printers, resins } = this;
+    const checked = check(posedSettings(this.settings, pose), { printers, resins });
+    return checked.ok ? ownOf(checked.options) : null;
   }
 
   /** Shows why something cannot be used. */
@@ -314,9 +323,15 @@ export abstract class Models extends Preferences {
   }
 }
 
-/** What the options of a job say about the pose of the selected model. */
-function ownOf({ rotation, height_mm }: Options): Own {
-  return { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }) };
+/** What options say about a model alone. */
+function ownOf({ rotation, height_mm, hollow, supports }: Options): Own {
+  return { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }), ...(hollow && { hollow }), ...(supports && { supports }) };
+}
+
+/** The settings for a model in a pose. Whether holes are made automatically holds for all that have none by hand. */
+function posedSettings(settings: Settings, { rotation, height, points, fill, drains, drain }: Pose): Settings {
+  const own = { rotation, height, ...(points !== "" && { points, fill }), ...(drains !== "" && { drains, drain }) };
+  return { ...settings, ...withoutPlaced(settings), ...own };
 }
 
 /** What a source is called while it is read. */

@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import { fakeWorkers } from "../../api/fake-worker.js";
 import { createSlicer } from "../../api/index.js";
 import type { ArrangeError, JobOptions, Placement } from "../../api/wire.js";
-import { MOST_COPIES, Plate, type Added, type Entry } from "./plate.js";
+import { MOST_COPIES, Plate, type Added, type Entry, type Own, type Pose } from "./plate.js";
 
 /** What the fake worker was asked, and what it answers. */
 let log: string[];
@@ -13,6 +13,10 @@ let told: string[];
 /** The kinds of its undo steps. */
 let steps: string[];
 let plate: Plate;
+/** What the settings mean for a model in a pose. */
+let owned: (pose: Pose) => Own | null;
+
+const POSE: Pose = { rotation: "", height: "", points: "", fill: "off", drains: "", drain: "auto" };
 
 beforeEach(async () => {
   log = [];
@@ -20,6 +24,7 @@ beforeEach(async () => {
   answers = [];
   told = [];
   steps = [];
+  owned = () => null;
   const spawn = fakeWorkers(log);
   const watched = (): ReturnType<typeof spawn> => {
     const handle = spawn();
@@ -37,6 +42,7 @@ beforeEach(async () => {
     replate: () => told.push("replate"),
     show: () => told.push("show"),
     selected: ({ model }: Entry) => told.push(`selected ${model.name}`),
+    own: (pose: Pose) => owned(pose),
   };
   plate = new Plate(host, createSlicer({ spawn: watched }));
   await plate.open(new Blob(["cup"]), { name: "a.stl" });
@@ -63,15 +69,17 @@ test("several are planned on the plate, each in its own pose", async () => {
   expect(log).toEqual(["1: add cup", "1: add ring", "1: plan 1 of cup ring×3"]);
 });
 
-test("where several stand, points placed by hand are left to be placed automatically", async () => {
-  plate.setCopies(0, 2);
-  const points = [{ at_mm: [1, 2, 3] as [number, number, number] }];
-  const drains = [{ at_mm: [1, 2, 3] as [number, number, number], direction: [0, 0, 1] as [number, number, number], diameter_mm: 3 }];
-  const options = { supports: { strength: "light", points, fill: true, spare: true }, hollow: { wall_mm: 2, drains } } as const;
-  await plate.plan({ ...options, supports: { ...options.supports, points: [...points] }, hollow: { ...options.hollow, drains: [...drains] } }, {});
-  expect(jobs[0]?.options).toEqual({ supports: { strength: "light", spare: true }, hollow: { wall_mm: 2, auto_drain: {} } });
-  await plate.plan({ hollow: { wall_mm: 2, drains: [...drains] } }, {}, true);
-  expect(jobs[1]?.options).toEqual({ hollow: { wall_mm: 2, auto_drain: { spare: true } } });
+test("each of several models has its own void and supports, with its own points", async () => {
+  const supports = { strength: "light", points: [{ at_mm: [1, 2, 3] as [number, number, number] }] } as const;
+  owned = ({ points }) => (points === "" ? { hollow: { wall_mm: 2 } } : { hollow: { wall_mm: 2 }, supports: { ...supports, points: [...supports.points] } });
+  plate.keep({ pose: { ...POSE, points: "1,2,3,,1" } });
+  await plate.add([ring], {});
+  await plate.plan({ tolerance: 1, hollow: { wall_mm: 2 }, supports: { strength: "light" } }, {});
+  expect(jobs[0]?.options).toEqual({ tolerance: 1 });
+  expect(jobs[0]?.models).toEqual([
+    { copies: 1, hollow: { wall_mm: 2 }, supports },
+    { copies: 1, hollow: { wall_mm: 2 } },
+  ]);
 });
 
 test("a file that cannot be read leaves the models as they were, also those read before it", async () => {
@@ -174,14 +182,15 @@ test("copies have the supports of their model, until it has another pose", async
   await plate.plan({ tolerance: 1 }, {});
   stand();
   expect(supports()).toEqual([undefined, undefined]);
-  await plate.plan({ tolerance: 1, supports: {} }, {});
+  owned = () => ({ supports: {} });
+  await plate.plan({ tolerance: 1 }, {});
   stand();
   expect(supports()).toEqual([0, 1]);
   plate.move(1, { x_mm: 20, turn_deg: 15 }, false);
   expect(supports()).toEqual([0, 1]);
-  plate.keep({ own: { height_mm: 5 } });
+  plate.keep({ own: { height_mm: 5, supports: {} } });
   expect(supports()).toEqual([undefined, 1]);
-  plate.keep({ own: {} });
+  plate.keep({ own: { supports: {} } });
   expect(supports()).toEqual([0, 1]);
   plate.setCopies(1, 2);
   stand();
@@ -213,9 +222,9 @@ test("a model that comes back between others is read again with those after it, 
   plate.remove(1);
   await plate.plan({ tolerance: 1 }, {});
   expect(log.at(-1)).toBe("1: plan 1 of cup pin");
-  expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(true);
+  expect(plate.restore(state, { pose: POSE })).toBe(true);
   await plate.plan({ tolerance: 1 }, {});
   expect(log.at(-1)).toBe("1: plan 1 of cup ring pin");
-  expect(plate.restore(state, { pose: { rotation: "", height: "" } })).toBe(false);
+  expect(plate.restore(state, { pose: POSE })).toBe(false);
   expect(steps).toEqual(["add", expect.stringMatching(/^remove /)]);
 });

@@ -5,16 +5,16 @@ import { DEFAULTS } from "../../api/wire.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
-import { jobOf } from "./job-options.js";
-import { quaternion, rotationText, type Fault, type Settings } from "./settings.js";
+import { DEFAULT_SETTINGS, quaternion, rotationText, type Fault, type Settings } from "./settings.js";
+import { isEqual } from "./plain.js";
 import { Sync } from "./sync.js";
 import { read } from "./typed.js";
 
-/** What the settings say about the selected model alone. */
-export type Pose = Pick<Settings, "rotation" | "height">;
+/** What the settings say about the selected model alone: its pose, and what is placed by hand on it. */
+export type Pose = Pick<Settings, "rotation" | "height" | "points" | "fill" | "drains" | "drain">;
 
-/** The same as options. */
-export type Own = Pick<ModelOptions, "rotation" | "height_mm">;
+/** The same as options, with voids and supports, which points and holes are part of. */
+export type Own = Pick<ModelOptions, "rotation" | "height_mm" | "hollow" | "supports">;
 
 /** A pose as the settings have it and, where these are valid, as options. */
 export interface Posed {
@@ -25,7 +25,7 @@ export interface Posed {
 /** A model to add, in a pose and with copies of its own. */
 export interface Added {
   readonly source: Source;
-  readonly own: Own & { readonly copies?: number };
+  readonly own: Pick<Own, "rotation" | "height_mm"> & { readonly copies?: number };
   /** That of the source if absent. */
   readonly name?: string;
 }
@@ -79,6 +79,8 @@ export interface PlateHost {
   show(plan: Plan): void;
   /** Another model was selected. */
   selected(entry: Entry): void;
+  /** The options of a model in a pose, by the settings now; null if one is invalid. */
+  own(pose: Pose): Own | null;
 }
 
 /** The most copies of a model. */
@@ -117,7 +119,6 @@ export class Plate {
   };
   #crowded: { placements: unknown; problems: unknown; places: ReadonlySet<number> } = { placements: null, problems: null, places: new Set() };
   #options: Options = {};
-  #isSparing = false;
   #isAsking = false;
   #asked: readonly Placement[] | null = null;
 
@@ -346,8 +347,8 @@ export class Plate {
     return this.#sync.positionsOf(entry);
   }
 
-  /** @param isSparing see `jobOf` */
-  async plan(options: Options, watch: Watch, isSparing = false): Promise<Plan> {
+  async plan(options: Options, watch: Watch): Promise<Plan> {
+    this.#settle();
     const { entries, placed, arranging } = this;
     const synced = this.#sync.bring(entries, watch);
     // A call keeps its place among others only if it is made at once.
@@ -357,8 +358,7 @@ export class Plate {
       this.placements = this.problems = [];
       return this.#slicer.plan(options, watch);
     }
-    this.#options = jobOf(options, isSparing);
-    this.#isSparing = isSparing;
+    this.#options = sharedOf(options);
     const planned = await this.#slicer.plan(this.#options, { ...watch, arranging, placements: placed });
     this.planned = planned;
     this.#planned = entries;
@@ -386,7 +386,7 @@ export class Plate {
   async tradeoff(options: Options = {}, points?: number, watch: Watch = {}): Promise<Tradeoff & { schema: typeof SCHEMA }> {
     if (this.planned === null) return this.#slicer.tradeoff(options, points, watch);
     const { number: plate, placements } = this;
-    return this.#slicer.tradeoff(jobOf(options, this.#isSparing), points, { ...watch, plate, placements });
+    return this.#slicer.tradeoff(sharedOf(options), points, { ...watch, plate, placements });
   }
 
   /** Asks what is wrong with the places, one call at a time; the newest counts. */
@@ -425,6 +425,16 @@ export class Plate {
     this.entries = this.entries.map((entry, other) => (other === place ? { ...entry, ...changed } : entry));
   }
 
+  /** Gives each model the options that the settings now mean for it. */
+  #settle(): void {
+    const entries = this.entries.map((entry) => {
+      const own = this.#host.own(entry.pose);
+      return own === null || isEqual(own, entry.own) ? entry : { ...entry, own };
+    });
+    // Copies are kept for as long as the models are the same.
+    if (entries.some((entry, place) => entry !== this.entries[place])) this.entries = entries;
+  }
+
   #tellSelected(): void {
     const entry = this.entries[this.selected];
     if (entry !== undefined) this.#host.selected(entry);
@@ -438,10 +448,16 @@ export class Plate {
   }
 }
 
-/** A pose of options, as settings have it. */
-export function poseOf({ rotation, height_mm }: Own): Pose {
+/** A pose of options, as settings have it, with nothing placed by hand. */
+export function poseOf({ rotation, height_mm }: Pick<Own, "rotation" | "height_mm">): Pose {
   const unit = quaternion(String(rotation));
-  return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm) };
+  const { points, fill, drains, drain } = DEFAULT_SETTINGS;
+  return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm), points, fill, drains, drain };
+}
+
+/** The options that several models share: each has a pose, a void and supports of its own. */
+function sharedOf({ rotation: _rotation, height_mm: _height, hollow: _hollow, supports: _supports, ...shared }: Options): Options {
+  return shared;
 }
 
 /** A number of copies within bounds; NaN if it is none. */

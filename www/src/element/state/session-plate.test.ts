@@ -190,7 +190,7 @@ test("models are added with copies and a pose of their own; without an open one,
   const { entries } = session.plate;
   expect(entries.map(({ copies, own }) => ({ copies, ...own }))).toEqual([
     { copies: 2, height_mm: 7 },
-    { copies: 1, rotation: [0, 0, 2, 0] },
+    { copies: 1, rotation: [0, 0, 1, 0] },
   ]);
   expect(entries[1]?.pose.rotation).toBe("0,0,1,0");
   expect(session.settings.height).toBe("7");

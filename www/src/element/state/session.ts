@@ -293,7 +293,7 @@ export class Session extends Models {
     this.#failed = true;
     const { weights } = this;
     this.keepPose();
-    const plan = await this.run("plan", model.name, options, (watch) => this.plate.plan(options, watch, this.settings.spare === "on"));
+    const plan = await this.run("plan", model.name, options, (watch) => this.plate.plan(options, watch));
     if (plan !== null) this.#show(plan, options, weights);
     else this.#refuse(options, weights);
     await this.resume();
@@ -347,7 +347,7 @@ export class Session extends Models {
     this.result = result;
     this.#weightsOf = weights;
     // Copies have their own.
-    this.shown = shownOf(report, plan.profile, isSeveral ? null : { supports: plan.supports?.[selected], voids: plan.voids?.[selected] });
+    this.shown = shownOf(report, plan.profile, { supports: isSeveral ? undefined : plan.supports?.[selected], voids: plan.voids?.[selected] });
     // Keep looking at the same height, or at the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;

@@ -11,6 +11,9 @@ interface There {
   weights: Float32Array | null;
 }
 
+/** No options of a model's own. */
+const NOTHING = { copies: undefined, rotation: undefined, height_mm: undefined, hollow: undefined, supports: undefined };
+
 export type SyncCalls = Pick<Slicer, "add" | "load" | "positions" | "remove" | "setWeights" | "update">;
 
 export class Sync {
@@ -73,7 +76,7 @@ export class Sync {
       const there = this.#there.get(key) as There;
       const now = ownOf(entry, entries);
       if (there.own !== JSON.stringify(now)) {
-        await this.#slicer.update(there.id, { copies: undefined, rotation: undefined, height_mm: undefined, ...now });
+        await this.#slicer.update(there.id, { ...NOTHING, ...now });
         there.own = JSON.stringify(now);
       }
       if (there.weights !== weights) await this.paint(key, weights, watch);
@@ -116,6 +119,5 @@ export class Sync {
 /** What a model has of its own among these. The options of a single copy say its pose. */
 function ownOf({ copies, own }: Entry, entries: readonly Entry[]): ModelOptions {
   if (entries.length === 1 && copies === 1) return {};
-  const { rotation, height_mm } = own;
-  return { copies, ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }) };
+  return { copies, ...own };
 }
