@@ -5,6 +5,8 @@
 //!
 //! Models use basic arithmetic only, so they are the same on every machine.
 
+#[path = "../tests/common/slicer.rs"]
+mod slicer;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;
@@ -17,7 +19,7 @@ use std::ops::ControlFlow;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Backend, Options, Planner, Slicer, Stage};
+use cusp_slicer::job::{Backend, LoadedModel, Options, Planner, Stage};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::orientation::SearchOptions;
@@ -25,6 +27,7 @@ use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting, hollow, support};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 use serde_json::{Map, Value, json};
+use slicer::Slicer;
 use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 
 #[global_allocator]
@@ -91,8 +94,7 @@ fn planned(options: &Options) -> Slicer {
 fn read() -> Work {
     let stl = solids::binary_stl(&table(7));
     Box::new(move || {
-        let slicer = Slicer::load(&stl);
-        drop(black_box(slicer.expect("a model")));
+        drop(black_box(LoadedModel::read(&stl).expect("a model")));
     })
 }
 

@@ -4,13 +4,17 @@
 //! Prints a table: for each model and quality, layers and largest cusp of that planner, the layers that Cusp needs for that cusp, and
 //! the least cusp of as many layers. All have a first layer of 0.2 mm, whose cusp does not count, and layers of 0.07 to 0.3 mm.
 
+#[path = "../tests/common/slicer.rs"]
+mod slicer;
+
 use std::fs;
 use std::path::Path;
 
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Report};
 use cusp_slicer::model::Pose;
 use cusp_slicer::profile::{Metric, Profile, Source};
+use slicer::Slicer;
 
 const LEAST_MM: f64 = 0.07;
 const MOST_MM: f64 = 0.3;

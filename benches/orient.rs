@@ -9,6 +9,8 @@ mod common;
 #[path = "paper/models.rs"]
 #[expect(dead_code, reason = "the paper's tables use the other models")]
 mod models;
+#[path = "../tests/common/slicer.rs"]
+mod slicer;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;
@@ -18,8 +20,9 @@ use std::ops::ControlFlow;
 use std::time::Instant;
 
 use common::exponent;
-use cusp_slicer::job::{Options, OrientationReport, Slicer};
+use cusp_slicer::job::{Options, OrientationReport};
 use cusp_slicer::orientation::SearchOptions;
+use slicer::Slicer;
 
 /// The time budget of one row; its first run may exceed it.
 const BUDGET_S: f64 = 4.0;

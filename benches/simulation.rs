@@ -4,15 +4,19 @@
 //! simulation took, under the cusp height, the deviation, the greedy planner and uniform layers. All keep the same tolerance, 65 µm of
 //! cusp height or 32.5 µm to either side: a uniform layer of 65 µm does so on every slope.
 
+#[path = "../tests/common/slicer.rs"]
+mod slicer;
+
 use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use cusp_slicer::job::{Backend, Options, Planner, Slicer, Stage};
+use cusp_slicer::job::{Backend, Options, Planner, Stage};
 use cusp_slicer::model::{Mesh, read};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::progress::silent;
 use cusp_slicer::simulation::{Knowledge, simulate};
+use slicer::Slicer;
 
 fn quiet(_: Stage, _: f64) -> ControlFlow<()> {
     ControlFlow::Continue(())

@@ -7,17 +7,20 @@
 #[path = "common/mod.rs"]
 #[expect(dead_code, reason = "other benches use the rest")]
 mod common;
+#[path = "../tests/common/slicer.rs"]
+mod slicer;
 #[path = "../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use the other solids")]
 mod solids;
 
 use common::{named, on_plate, time};
-use cusp_slicer::job::{Options, Slicer};
+use cusp_slicer::job::Options;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::orientation::Task;
 use cusp_slicer::prepare::{SupportStrength, Supporting, support};
 use cusp_slicer::progress::silent;
 use peak_alloc::PeakAlloc;
+use slicer::Slicer;
 
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

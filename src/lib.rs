@@ -9,7 +9,7 @@
 //! use std::fs::{self, File};
 //! use std::ops::ControlFlow;
 //!
-//! use cusp_slicer::{Options, Slicer, Stage};
+//! use cusp_slicer::{Job, JobOptions, LoadedModel, Options, Stage};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
 //! # let folder = tempfile::tempdir()?;
@@ -20,15 +20,15 @@
 //! #     format!("facet normal 0 0 0\nouter loop\n{vertices}endloop\nendfacet\n")
 //! # });
 //! # fs::write("model.stl", format!("solid\n{}endsolid\n", facets.concat()))?;
-//! let mut slicer = Slicer::load(&fs::read("model.stl")?)?;
-//! let options = Options { rays: 64, ..Options::default() };
+//! let mut job = Job::new(vec![LoadedModel::read(&fs::read("model.stl")?)?]);
+//! let options = JobOptions::of(Options { rays: 64, ..Options::default() });
 //! let mut progress = |_: Stage, _: f64| ControlFlow::Continue(());
 //!
-//! let report = pollster::block_on(slicer.plan(&options, &mut progress))?;
-//! println!("{} layers, {:.0} s, {:.1} ml", report.layers, report.print_time_s, report.resin_ml);
+//! let report = pollster::block_on(job.plan(&options, &mut progress))?;
+//! println!("{} layers, {:.0} s, {:.1} ml", report.plates[0].layers, report.print_time_s, report.resin_ml);
 //!
 //! let file = File::create("model.zip")?;
-//! slicer.write_archive(file, &mut progress)?;
+//! job.write_archive(0, file, &mut progress)?;
 //! # Ok(())
 //! # }
 //! ```
@@ -89,5 +89,5 @@ pub mod job;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
 
-pub use job::{Error, Options, Report, Slicer, Stage};
+pub use job::{Error, Job, JobOptions, JobReport, LoadedModel, Options, Report, Stage};
 pub use warning::Warning;

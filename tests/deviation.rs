@@ -1,9 +1,10 @@
 //! The deviation: its definition against a naive oracle, its bound against distances that are measured, and normal cones against
 //! closed forms.
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, bins, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
-use cusp_slicer::job::{Backend, Options, Slicer};
+use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
 use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::plan::segment::Segment;

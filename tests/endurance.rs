@@ -1,6 +1,7 @@
 //! Many jobs in one process take no more memory than a few.
 
-use cusp_slicer::job::{Backend, Options, Slicer};
+use crate::common::Slicer;
+use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::profile::Metric;
 
 use crate::common::{binary_stl, in_own_process, quiet, solids};

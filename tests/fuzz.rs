@@ -13,9 +13,10 @@ use std::fs;
 use std::panic::{AssertUnwindSafe, catch_unwind};
 use std::path::{Path, PathBuf};
 
+use crate::common::Slicer;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Backend, JobOptions, Options, Planner, Slicer};
+use cusp_slicer::job::{Backend, JobOptions, Options, Planner};
 use cusp_slicer::model::weights;
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::resin::Resin;

@@ -3,9 +3,10 @@
 
 use std::io::{Cursor, Read};
 
+use crate::common::Slicer;
 use crate::common::{binary_stl, on_plate, quiet, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::job::{Backend, Options, Slicer};
+use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::ldi::{Hit, cpu};
 use cusp_slicer::mask::{LEVELS, Light, MaskCursor, Masks, Samples, Side};
 use cusp_slicer::plan::{Plan, uniform};

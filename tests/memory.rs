@@ -1,7 +1,8 @@
 //! Memory, measured by a counting allocator.
 
+use crate::common::Slicer;
 use cusp_slicer::Error;
-use cusp_slicer::job::{Backend, Options, Slicer};
+use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::orientation::Task;
 use glam::Vec3;
 

@@ -1,7 +1,8 @@
 //! Prices: closed forms, what holds for all of them, and the document that defines them.
 
+use crate::common::Slicer;
 use crate::common::{binary_stl, quiet, solids};
-use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Slicer};
+use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options};
 use cusp_slicer::price::{Finish, Price, PriceError, PriceItem, PriceKind, Prices, QuantityBreak};
 
 const DOCUMENT: &str = include_str!("../docs/price.md");

@@ -1,9 +1,10 @@
 //! Printers and resins as data: plates, what printers refuse, exposures.
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::{Format, FormatThicknesses};
-use cusp_slicer::job::{Backend, Options, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Report};
 use cusp_slicer::printer::{PRINTERS, VariableLayers, named};
 use cusp_slicer::resin::Resin;
 

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::{Backend, Options, Report, Slicer, Snap};
+use cusp_slicer::job::{Backend, Options, Report, Snap};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::saliency::saliency;
 use cusp_slicer::model::weights::{self, WeightsError};

@@ -1,8 +1,9 @@
 //! The metric of threads against closed forms and a loop over facets and bins.
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, on_plate, oracle, quiet, solids};
 use cusp_slicer::grid::Bins;
-use cusp_slicer::job::{Backend, Options, Planner, Slicer, Snap};
+use cusp_slicer::job::{Backend, Options, Planner, Snap};
 use cusp_slicer::profile::{Metric, Source};
 
 /// What Wasserfall, Hendrich and Zhang measured on vertical walls.

@@ -1,8 +1,9 @@
 //! Nothing vanishes without a word: what compensation erases, what no ray meets, and cavities that nothing leads out of.
 
+use crate::common::Slicer;
 use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::{Code, Limits};
-use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Report, Slicer};
+use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Report};
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
 use cusp_slicer::resin::Resin;
 use cusp_slicer::warning::Warning;

@@ -1,10 +1,9 @@
 //! Submitted plans are verified by planning again: an honest one passes, and any false value is found. Also previews and
 //! rotations.
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::{
-    Backend, Claim, Job, LoadedModel, Options, Planner, Report, Slicer, VerifyError,
-};
+use cusp_slicer::job::{Backend, Claim, Job, LoadedModel, Options, Planner, Report, VerifyError};
 use cusp_slicer::profile::Metric;
 use serde_json::{Value, json};
 

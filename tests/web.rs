@@ -1,6 +1,7 @@
 //! The same results natively and in the browser: each test runs in both, against the same recorded
 //! fingerprints.
 
+use crate::common::Slicer;
 #[cfg(target_arch = "wasm32")]
 use crate::common::shifted_grid;
 use crate::common::{binary_stl, fingerprint, on_plate, quiet, solids};
@@ -10,7 +11,7 @@ use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
-use cusp_slicer::job::{Backend, Calibration, Minimize, Options, Planner, Slicer};
+use cusp_slicer::job::{Backend, Calibration, Minimize, Options, Planner};
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::ldi::{

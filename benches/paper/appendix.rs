@@ -2,8 +2,9 @@
 
 use std::fmt::Write as _;
 
+use crate::slicer::Slicer;
 use cusp_slicer::grid::Bins;
-use cusp_slicer::job::{Options, Planner, Slicer};
+use cusp_slicer::job::{Options, Planner};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::read;
 use cusp_slicer::profile::facet_bins::FacetBins;

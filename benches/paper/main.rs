@@ -7,6 +7,8 @@ mod appendix;
 mod direct;
 mod figure;
 mod models;
+#[path = "../../tests/common/slicer.rs"]
+mod slicer;
 #[path = "../../tests/common/solids.rs"]
 #[expect(dead_code, reason = "the tests use most of the solids")]
 mod solids;
@@ -18,7 +20,7 @@ use std::path::Path;
 use std::time::Instant;
 
 use cusp_slicer::grid::Bins;
-use cusp_slicer::job::{Backend, Options, Slicer, Snap, Stage};
+use cusp_slicer::job::{Backend, Options, Snap, Stage};
 use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;
@@ -26,6 +28,7 @@ use cusp_slicer::plan::optimal::{self, Objective};
 use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{Metric, Shape, Source, steepest};
+use slicer::Slicer;
 
 use direct::DirectSlicer;
 use glam::Vec3;

@@ -8,6 +8,8 @@ mod models;
 mod picture;
 #[path = "../common/png_file.rs"]
 mod png_file;
+#[path = "../../tests/common/slicer.rs"]
+mod slicer;
 #[path = "../../tests/common/solids.rs"]
 #[expect(
     dead_code,
@@ -20,12 +22,13 @@ use std::ops::ControlFlow;
 use std::path::Path;
 use std::time::Instant;
 
-use cusp_slicer::job::{Backend, Options, Report, Slicer, Stage};
+use cusp_slicer::job::{Backend, Options, Report, Stage};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::model::saliency::saliency;
 use cusp_slicer::progress::silent;
 use glam::Vec3;
 use picture::{Colour, Picture};
+use slicer::Slicer;
 
 const HEIGHT_MM: f64 = 40.0;
 const ROUNDS: usize = 3;

@@ -2,9 +2,10 @@
 
 use std::sync::LazyLock;
 
+use super::slicer::Slicer;
 use cusp_slicer::archive::read::PrintFile;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Claim, Error, Minimize, Options, Planner, Report, Slicer, VerifyError};
+use cusp_slicer::job::{Claim, Error, Minimize, Options, Planner, Report, VerifyError};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::profile::Metric;
 use glam::Vec3;

@@ -8,6 +8,12 @@ pub mod pipeline;
 pub mod promises;
 pub mod readers;
 pub mod settings;
+#[path = "../../tests/common/slicer.rs"]
+#[allow(
+    clippy::duplicate_mod,
+    reason = "the tests have it, too, and include this file"
+)]
+pub mod slicer;
 
 use std::ops::ControlFlow;
 use std::sync::LazyLock;

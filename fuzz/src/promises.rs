@@ -1,6 +1,7 @@
 //! What is promised of the layers of every plan.
 
-use cusp_slicer::job::{Options, Planner, Report, Slicer, Timings};
+use super::slicer::Slicer;
+use cusp_slicer::job::{Options, Planner, Report, Timings};
 use cusp_slicer::model::{FileFacts, Mesh, ModelFile, Pose};
 use cusp_slicer::plan::{HeightRange, Plan};
 use cusp_slicer::profile::{Metric, Source};

@@ -3,8 +3,9 @@
 use std::fmt::Debug;
 use std::sync::LazyLock;
 
+use super::slicer::Slicer;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{Backend, Claim, JobOptions, Options, Report, Slicer};
+use cusp_slicer::job::{Backend, Claim, JobOptions, Options, Report};
 use cusp_slicer::model::{FileFacts, ModelFile};
 use cusp_slicer::price::{PriceItem, Prices};
 use cusp_slicer::printer::Printer;

@@ -1,12 +1,13 @@
 //! Print files of every format: masks decoded by an independent library, a reader of run.gcode as strict as any known one,
 //! and plans that a format cannot express.
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, on_plate, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::archive::{self, ArchiveError};
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Planner, Report};
 use cusp_slicer::ldi::cpu;
 use cusp_slicer::mask::{LayerRuns, Light, Masks, Run, Samples, Side};
 use cusp_slicer::plan::uniform;

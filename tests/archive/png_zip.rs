@@ -2,9 +2,10 @@
 
 use std::io::{Cursor, Read, Seek, SeekFrom, Write};
 
+use crate::common::Slicer;
 use crate::common::{binary_stl, quiet, solids};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Planner, Slicer};
+use cusp_slicer::job::{Backend, Options, Planner};
 use cusp_slicer::warning::Warning;
 use serde_json::Value;
 

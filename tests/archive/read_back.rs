@@ -2,9 +2,10 @@
 
 use std::sync::Arc;
 
+use crate::common::Slicer;
 use cusp_slicer::archive::read::{PrintFile, inspect};
 use cusp_slicer::format::{Format, FormatThicknesses};
-use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Planner, Report};
 use cusp_slicer::printer::{PRINTERS, Printer, PrinterChoice, VariableLayers};
 use cusp_slicer::progress::silent;
 

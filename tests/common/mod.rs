@@ -7,8 +7,10 @@
 )]
 
 pub mod oracle;
+pub mod slicer;
 pub mod solids;
 
+pub use slicer::Slicer;
 pub use solids::binary_stl;
 
 use std::env;
@@ -16,7 +18,7 @@ use std::ops::ControlFlow;
 use std::process::Command;
 
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::job::{Slicer, Stage};
+use cusp_slicer::job::Stage;
 use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;

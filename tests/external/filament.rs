@@ -4,8 +4,9 @@ use std::fs::{self, File};
 use std::path::Path;
 use std::process::Command;
 
+use crate::common::Slicer;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Report};
 use cusp_slicer::profile::Metric;
 use libtest_mimic::{Failed, Trial};
 use tempfile::TempDir;

@@ -5,7 +5,8 @@ use std::fs;
 use std::path::Path;
 use std::process::Command;
 
-use cusp_slicer::job::{MeshInfo, Slicer};
+use crate::common::Slicer;
+use cusp_slicer::job::MeshInfo;
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::warning::Warning;
 use libtest_mimic::{Failed, Trial};

@@ -5,8 +5,9 @@ use std::io::BufWriter;
 use std::path::{Path, PathBuf};
 use std::process::Command;
 
+use crate::common::Slicer;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Planner, Report, Slicer};
+use cusp_slicer::job::{Backend, Options, Planner, Report};
 use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting};
 use libtest_mimic::{Failed, Trial};
 use tempfile::TempDir;

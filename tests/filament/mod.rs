@@ -4,10 +4,11 @@ mod file;
 
 use std::collections::HashMap;
 
+use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, quiet, solids};
 use cusp_slicer::filament::FilamentSlicer;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Slicer};
+use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::{Error, Warning};
 use file::{layers_of_prusa_slicer, profile_name, read};

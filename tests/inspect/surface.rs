@@ -2,8 +2,9 @@
 
 use std::collections::HashMap;
 
+use crate::common::Slicer;
 use cusp_slicer::archive::read::{Layer, Mask, PrintFile, inspect, inspect_masks, surface};
-use cusp_slicer::job::{Backend, Options, Slicer};
+use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::progress::silent;
 
 use crate::common::{binary_stl, quiet, solids};

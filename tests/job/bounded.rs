@@ -1,12 +1,11 @@
 //! Jobs within a bound of memory: what is not kept is found anew, and everything comes out the same.
 
+use crate::common::Slicer;
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::growth::Growth;
-use cusp_slicer::job::{
-    Backend, Job, JobOptions, ModelOptions, Options, Planner, Report, Slicer, Work,
-};
+use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Planner, Report, Work};
 use cusp_slicer::ldi::visibility::visibility;
 use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
 use cusp_slicer::prepare::{Hollowing, SupportStrength, Supporting};

@@ -5,10 +5,11 @@ mod numbers;
 mod promises;
 mod resolve;
 
+use crate::common::Slicer;
 use crate::common::{binary_stl, load, quiet, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Report, Slicer, Stage};
+use cusp_slicer::job::{Backend, Options, Report, Stage};
 use cusp_slicer::profile::Metric;
 use std::io::Cursor;
 use std::ops::ControlFlow;

@@ -1,7 +1,8 @@
 //! Islands and cups of directions: in closed form, and against the checks of printability on masks.
 
+use crate::common::Slicer;
 use cusp_slicer::inspect::{Code, Limits};
-use cusp_slicer::job::{Options, Slicer};
+use cusp_slicer::job::Options;
 use cusp_slicer::orientation::{Exclusion, Metrics, Quality, Search, SearchOptions};
 use glam::{DVec3, Quat, Vec3};
 

@@ -6,8 +6,9 @@ mod metrics;
 mod search;
 mod shards;
 
+use crate::common::Slicer;
 use crate::common::{binary_stl, load, quiet, solids};
-use cusp_slicer::job::{Options, OrientationReport, Slicer};
+use cusp_slicer::job::{Options, OrientationReport};
 use cusp_slicer::orientation::{Candidate, Metrics, SearchOptions, Task};
 use glam::{DVec3, Quat, Vec3};
 

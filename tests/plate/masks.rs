@@ -129,7 +129,7 @@ fn turned_copies_have_the_same_supports() {
     assert_eq!(at(&bar.supported.as_ref().unwrap().points), at(few));
     assert_eq!(ball.supported, None);
     assert_eq!(
-        [bar.size_mm[2], ball.size_mm[2]].map(|mm| mm.round()),
+        [bar.size_mm[2], ball.size_mm[2]].map(f64::round),
         [2.0, 6.0]
     );
 }

@@ -1,8 +1,9 @@
 //! What copies share: rays, plans, time.
 
+use crate::common::Slicer;
 use cusp_slicer::Error;
 use cusp_slicer::arrange::shadow_mm2;
-use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement, Slicer};
+use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement};
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
 use glam::Vec3;

@@ -1,7 +1,8 @@
 //! Drain holes.
 
+use crate::common::Slicer;
 use cusp_slicer::inspect::{Code, Limits};
-use cusp_slicer::job::{Report, Slicer};
+use cusp_slicer::job::Report;
 use cusp_slicer::model::Mesh;
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, plugs};
 use cusp_slicer::warning::Warning;
@@ -141,7 +142,7 @@ fn automatic_holes_leave_no_trap_and_no_cup() {
     ];
     for (name, triangles, holes) in all {
         let mut model = load(&triangles);
-        let codes = |slicer: &mut cusp_slicer::job::Slicer| {
+        let codes = |slicer: &mut crate::common::Slicer| {
             let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
             let of_hollows = [Code::Trap, Code::Cup, Code::SmallEscape];
             let counts = found.counts.into_iter().map(|count| count.code);

@@ -2,8 +2,9 @@
 
 use std::ops::ControlFlow;
 
+use crate::common::Slicer;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Error, Job, JobOptions, Options, OptionsError, Slicer, Stage};
+use cusp_slicer::job::{Error, Job, JobOptions, Options, OptionsError, Stage};
 use cusp_slicer::ldi::LdiError;
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, SupportStrength, Supporting};
 use cusp_slicer::profile::{Metric, Source};
@@ -50,7 +51,7 @@ fn a_solid_model_is_as_it_was_before_it_was_hollowed() {
         hollow: None,
         ..hollowed(Hollowing::default())
     };
-    let file = |slicer: &mut cusp_slicer::job::Slicer| {
+    let file = |slicer: &mut crate::common::Slicer| {
         slicer.write_archive(Vec::new(), &mut quiet).unwrap().0
     };
     plan(&mut cube, &solid);

@@ -5,7 +5,8 @@ mod hollow;
 mod jobs;
 mod support;
 
-use cusp_slicer::job::{Options, Report, Slicer};
+use crate::common::Slicer;
+use cusp_slicer::job::{Options, Report};
 use cusp_slicer::prepare::Hollowing;
 
 use crate::common::quiet;

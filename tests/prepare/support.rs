@@ -1,7 +1,8 @@
 //! Supports against closed forms, naive distances and the checks.
 
+use crate::common::Slicer;
 use cusp_slicer::inspect::{Code, Limits, Printability};
-use cusp_slicer::job::{Error, Options, OptionsError, Report, Slicer};
+use cusp_slicer::job::{Error, Options, OptionsError, Report};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::prepare::{
     Hollowing, SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,

@@ -2,7 +2,8 @@
 
 use std::fmt::Write as _;
 
-use cusp_slicer::job::{Options, Slicer};
+use crate::common::Slicer;
+use cusp_slicer::job::Options;
 use cusp_slicer::model::read::kind::FileKind;
 use cusp_slicer::model::read::threemf::ThreeMfError;
 use cusp_slicer::model::read::{Contents, PartKind, ReadError, ReadOptions, read, read_with};

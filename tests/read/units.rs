@@ -2,7 +2,8 @@
 
 use std::io::Cursor;
 
-use cusp_slicer::job::{Options, Report, Slicer};
+use crate::common::Slicer;
+use cusp_slicer::job::{Options, Report};
 use cusp_slicer::model::{ModelUnit, Pose};
 use cusp_slicer::orientation::SearchOptions;
 use cusp_slicer::warning::{UnitReading, Warning};

@@ -7,11 +7,12 @@ mod tolerance;
 
 use std::io::{Cursor, Read as _};
 
+use crate::common::Slicer;
 use crate::common::solids::Triangles;
 use crate::common::{binary_stl, quiet};
 use crate::inspect::zipped;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Options, Planner, Slicer};
+use cusp_slicer::job::{Backend, Options, Planner};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
 use cusp_slicer::simulation::{Knowledge, Simulation, SimulationError, simulate};

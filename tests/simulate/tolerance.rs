@@ -1,7 +1,8 @@
 //! What reports promise of a print, held against what its print file prints.
 
+use crate::common::Slicer;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Slicer, Snap};
+use cusp_slicer::job::{Backend, Minimize, Options, Planner, Report, Snap};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::simulation::{Knowledge, Simulation};
 use glam::Vec3;

@@ -2,7 +2,8 @@
 
 use std::ops::ControlFlow;
 
-use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer, Stage, StageProgress};
+use crate::common::Slicer;
+use cusp_slicer::job::{Backend, GpuMethod, Options, Stage, StageProgress};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
 use cusp_slicer::warning::Warning;
 use libtest_mimic::Failed;

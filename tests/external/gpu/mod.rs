@@ -3,8 +3,9 @@
 
 mod fallbacks;
 
+use crate::common::Slicer;
 use cusp_slicer::grid::Grid;
-use cusp_slicer::job::{Backend, GpuMethod, Options, Slicer};
+use cusp_slicer::job::{Backend, GpuMethod, Options};
 use cusp_slicer::ldi::gpu::{self, Gpu, Method};
 use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::Mesh;
