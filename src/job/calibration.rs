@@ -6,8 +6,8 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::parts::Output;
-use super::stage::StageProgress;
+use super::stages::parts::Output;
+use super::stages::stage::StageProgress;
 use super::{Backend, Error, Job, JobOptions, LoadedModel, Options, Report, Snap};
 use crate::archive::ArchiveError;
 use crate::format::{Format, FormatThicknesses};

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use serde::Serialize;
 
-use super::stage::{Stage, StageProgress};
+use super::stages::stage::{Stage, StageProgress};
 use super::{Error, Job};
 use crate::arrange::TURN_DEG;
 use crate::inspect::{self, Limits, Printability, Verdict};

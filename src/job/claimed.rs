@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::stage::StageProgress;
+use super::stages::stage::StageProgress;
 use super::{Error, Job, JobOptions, ModelOptions, Options, Placement, Report};
 use crate::arrange::Arranging;
 use crate::model::ModelFile;

@@ -1,9 +1,9 @@
 //! Planners side by side.
 
-use super::parts::Thicknesses;
-use super::planned::PlannedModel;
-use super::planning::Planning;
-use super::stage::{Stage, StageProgress, report};
+use super::stages::parts::Thicknesses;
+use super::stages::planned::PlannedModel;
+use super::stages::planning::Planning;
+use super::stages::stage::{Stage, StageProgress, report};
 use super::{Comparison, Error, Job, JobOptions, Planner, PlannerReport};
 use crate::progress::Progress;
 

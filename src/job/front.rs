@@ -1,9 +1,9 @@
 //! The least sum of volume deviations beside the smallest maximum error: two ends of what layers of varying thickness can be
 //! planned for.
 
-use super::planned::PlannedModel;
-use super::planning::Planning;
-use super::stage::{Stage, StageProgress, report};
+use super::stages::planned::PlannedModel;
+use super::stages::planning::Planning;
+use super::stages::stage::{Stage, StageProgress, report};
 use super::{Error, FrontPoint, Job, JobOptions, SumAndMaximum};
 use crate::plan::optimal::{self, Objective};
 use crate::plan::preferred::SnapPlanes;

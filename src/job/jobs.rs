@@ -4,18 +4,18 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::memory::Memory;
 use super::outputs::Plate;
-use super::parts::{Layering, Resolved, Target};
-use super::planned::{Planned, PlannedModel};
-use super::prepared::Prepared;
 use super::report::{Origin, SCHEMA, report_of};
 use super::resolve::check_prepared;
-use super::sampled::Sampler;
 use super::shapes::Shape;
-use super::stage::{Stage, StageProgress, ms_since, report as tell};
+use super::stages::memory::Memory;
+use super::stages::parts::{Layering, Resolved, Target};
+use super::stages::planned::{Planned, PlannedModel};
+use super::stages::prepared::Prepared;
+use super::stages::sampled::Sampler;
+use super::stages::stage::{Stage, StageProgress, ms_since, report as tell};
 #[cfg(not(target_arch = "wasm32"))]
-use super::work;
+use super::stages::work;
 use super::{
     Error, JobOptions, JobReport, LoadedModel, ModelOptions, Options, OptionsError, Placement,
     Report, Timings,

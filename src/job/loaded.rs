@@ -3,13 +3,13 @@
 use glam::Vec3;
 use web_time::Instant;
 
-use super::facet_shapes::{Extra, shapes_of};
-use super::parts::{Layering, Resolved};
-use super::planning::Planning;
 use super::report::odd_size;
-use super::stage::{Stage, StageProgress, ms_since};
+use super::stages::facet_shapes::{Extra, shapes_of};
+use super::stages::parts::{Layering, Resolved};
+use super::stages::planning::Planning;
+use super::stages::stage::{Stage, StageProgress, ms_since};
 #[cfg(not(target_arch = "wasm32"))]
-use super::work;
+use super::stages::work;
 use super::{Error, MeshInfo, Options, Preview};
 use crate::grid::Bins;
 use crate::ldi::LdiError;

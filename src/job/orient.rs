@@ -2,10 +2,10 @@
 
 use serde::Serialize;
 
-use super::facet_shapes::{Extra, shapes_of};
-use super::parts::Resolved;
-use super::planning::Planning;
-use super::stage::{Stage, StageProgress};
+use super::stages::facet_shapes::{Extra, shapes_of};
+use super::stages::parts::Resolved;
+use super::stages::planning::Planning;
+use super::stages::stage::{Stage, StageProgress};
 use super::{Error, LoadedModel, Options, SCHEMA};
 use crate::grid::{Bins, GridError};
 use crate::ldi::LdiError;

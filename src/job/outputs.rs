@@ -7,12 +7,12 @@ use web_time::Instant;
 
 use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::loaded::{positions, positions_of};
-use super::parts::Output;
-use super::planned::{Planned, PlannedModel};
-use super::planning::Planning;
-use super::prepared::Prepared;
 use super::print::{screen_of, write_print};
-use super::stage::{Stage, StageProgress, ms_since, report};
+use super::stages::parts::Output;
+use super::stages::planned::{Planned, PlannedModel};
+use super::stages::planning::Planning;
+use super::stages::prepared::Prepared;
+use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Report, Tradeoff};
 use crate::archive::layer_profile::{self, LayeredModel};
 use crate::archive::{Look, MaskSource, Standing};

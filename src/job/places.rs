@@ -2,9 +2,9 @@
 
 use std::sync::Arc;
 
-use super::parts::{Raster, Resolved, Sampling};
-use super::planned::PlannedModel;
-use super::prepared::Prepared;
+use super::stages::parts::{Raster, Resolved, Sampling};
+use super::stages::planned::PlannedModel;
+use super::stages::prepared::Prepared;
 use super::{Error, Job, JobOptions, Placement, Timings};
 use crate::arrange::{
     ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems, shadow_mm2,

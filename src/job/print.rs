@@ -2,8 +2,8 @@
 
 use std::io::Write;
 
-use super::parts::Output;
-use super::planned::Planned;
+use super::stages::parts::Output;
+use super::stages::planned::Planned;
 use super::{Error, Report};
 use crate::archive::{self, Layer, Look, MaskSource, PrintJob, Screen};
 use crate::progress::Progress;

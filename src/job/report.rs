@@ -5,8 +5,8 @@ use serde_json::value::to_raw_value;
 #[cfg(target_arch = "wasm32")]
 use tsify::Tsify;
 
-use super::parts::{Filament, Output};
-use super::planned::Planned;
+use super::stages::parts::{Filament, Output};
+use super::stages::planned::Planned;
 use super::{Minimize, ModelReport, Options, Placement};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;

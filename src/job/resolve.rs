@@ -3,7 +3,9 @@
 
 use std::sync::Arc;
 
-use super::parts::{Filament, Layering, Output, Raster, Resolved, Sampling, Target, Thicknesses};
+use super::stages::parts::{
+    Filament, Layering, Output, Raster, Resolved, Sampling, Target, Thicknesses,
+};
 use super::{Error, LAYERS_MM, Minimize, Options, OptionsError, Planner, Snap};
 use crate::filament::NOZZLES_MM;
 use crate::format::Format;

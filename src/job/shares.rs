@@ -3,9 +3,9 @@
 use serde::Serialize;
 
 use super::jobs::Layout;
-use super::planned::{Planned, PlannedModel};
-use super::planning::Planning;
-use super::prepared::{Hollowed, Supported};
+use super::stages::planned::{Planned, PlannedModel};
+use super::stages::planning::Planning;
+use super::stages::prepared::{Hollowed, Supported};
 use super::{Error, Job, JobOptions, ModelOptions, Report};
 use crate::model::ModelFile;
 use crate::plan::Plan;

@@ -6,7 +6,7 @@ use serde_json::Value;
 
 use super::claimed::ClaimedPlate;
 use super::report::OF_THE_MACHINE;
-use super::stage::StageProgress;
+use super::stages::stage::StageProgress;
 use super::{Error, Job, Options, Report, SCHEMA};
 use crate::model::ModelFile;
 use crate::model::read::ReadOptions;

@@ -4,11 +4,11 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
-use super::{Backend, GpuMethod, Minimize, Planner};
 use crate::filament::FilamentSlicer;
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
 use crate::growth::Growth;
+use crate::job::{Backend, GpuMethod, Minimize, Planner};
 use crate::mask::{Samples, Side};
 use crate::model::{Bounds, Pose};
 use crate::plan::Limits;
@@ -64,7 +64,7 @@ pub(crate) struct Layering {
     pub target: Target,
     pub minimize: Minimize,
     /// The limits of plans, except for the tolerance.
-    pub(super) limits: Limits,
+    pub(in crate::job) limits: Limits,
     pub thicknesses: Thicknesses,
     /// Minimum area, in mm², of a flat that gets a plane. `None` if no planes are put at flats and sharp changes.
     pub snap_mm2: Option<f64>,

@@ -2,12 +2,12 @@
 
 use std::sync::Arc;
 
-use super::Error;
 use super::measured::Measured;
 use super::memory::Bound;
 use super::parts::Layering;
 use super::planning::{Findings, Part, Planning};
 use super::sampled::Sampled;
+use crate::job::Error;
 use crate::ldi::LdiError;
 use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks, erased_mm2};
 use crate::plan::Plan;

@@ -3,8 +3,8 @@
 
 use super::memory::hits_of;
 use super::parts::{Layering, Target, Thicknesses};
-use super::{Error, Minimize, Planner, Work};
 use crate::grid::{Bins, Grid};
+use crate::job::{Error, Minimize, Planner, Work};
 use crate::model::{Mesh, saliency};
 use crate::plan::timed::MOST_BOTTOM_LAYERS;
 use crate::profile::Metric;

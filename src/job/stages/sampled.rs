@@ -10,9 +10,9 @@ use super::prepared::{Prepared, Supported};
 use super::stage::ms_since;
 #[cfg(not(target_arch = "wasm32"))]
 use super::work;
-use super::{Backend, Error, GpuMethod, Timings};
 use crate::grid::Grid;
 use crate::inspect::{Held, Limits};
+use crate::job::{Backend, Error, GpuMethod, Timings};
 use crate::ldi::gpu::{self, Gpu};
 use crate::ldi::{GpuFault, Ldi, LdiError, RayImage, Survey, cpu, missed};
 use crate::model::Mesh;

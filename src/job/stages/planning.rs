@@ -4,7 +4,7 @@ use std::borrow::Cow;
 
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
-use super::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
+use crate::job::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
 use crate::ldi::LdiError;
 use crate::order::ascending;
 use crate::plan::optimal::Objective;
@@ -51,8 +51,8 @@ impl<'a> Part<'a> {
 /// Everything that planners need to know about the models of a plan.
 pub struct Planning<'a> {
     /// The models; there is at least one.
-    pub(super) parts: Vec<Part<'a>>,
-    pub(super) layering: &'a Layering,
+    pub(in crate::job) parts: Vec<Part<'a>>,
+    pub(in crate::job) layering: &'a Layering,
     height_mm: f64,
     /// Errors of layers under the metric, from the exact shape.
     exact: LayerErrors,
@@ -119,12 +119,12 @@ impl<'a> Planning<'a> {
     }
 
     /// Errors of layers under the metric, from the source that plans are made from.
-    pub(super) fn errors(&self) -> &LayerErrors {
+    pub(in crate::job) fn errors(&self) -> &LayerErrors {
         self.sampled.as_ref().unwrap_or(&self.exact)
     }
 
     /// The errors of layers under another metric, without weights and without tolerances of models' own.
-    pub(super) fn unweighted(&self, metric: Metric, source: Source) -> LayerErrors {
+    pub(in crate::job) fn unweighted(&self, metric: Metric, source: Source) -> LayerErrors {
         largest(self.parts.iter().map(|part| {
             let errors = part.shapes.of(source).errors(metric);
             (errors, Strictness::NONE)
@@ -370,11 +370,11 @@ impl<'a> Planning<'a> {
         Ok(report)
     }
 
-    pub(super) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
+    pub(in crate::job) fn row(&self, planner: Planner) -> Result<PlannerReport, PlanError> {
         Ok(self.row_of(planner.name(), &self.plan_by(planner)?))
     }
 
-    pub(super) fn row_of(&self, planner: &str, plan: &Plan) -> PlannerReport {
+    pub(in crate::job) fn row_of(&self, planner: &str, plan: &Plan) -> PlannerReport {
         PlannerReport {
             planner: planner.to_owned(),
             layers: plan.layers(),
@@ -383,7 +383,7 @@ impl<'a> Planning<'a> {
         }
     }
 
-    pub(super) fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
+    pub(in crate::job) fn findings(&self, plan: &Plan) -> Result<Findings, PlanError> {
         let layering = self.layering;
         let (finest, coarsest) = match layering.planner {
             // Uniform layers may be planned without a valid range of thicknesses. They then stand for both ends.

@@ -1,7 +1,7 @@
 //! How much memory a job takes, and whether it takes less when hits are found anew instead of kept.
 
-use super::Error;
 use crate::grid::Grid;
+use crate::job::Error;
 use crate::ldi::{Anew, Hit};
 use crate::mask::{Masks, Samples};
 use crate::model::Mesh;
@@ -39,7 +39,7 @@ const OFFSET_BYTES: u64 = 4;
 const LEAST_SLAB_BYTES: u64 = 1 << 20;
 
 /// How many hits rays find, nearly.
-pub(super) fn hits_of(mesh: &Mesh, rays: &Grid) -> f64 {
+pub(in crate::job) fn hits_of(mesh: &Mesh, rays: &Grid) -> f64 {
     let seen_mm2 = (0..mesh.facets.len()).map(|facet| mesh.projected_mm2(facet));
     seen_mm2.sum::<f64>() / rays.pixel_mm2()
 }

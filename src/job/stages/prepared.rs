@@ -7,10 +7,10 @@ use serde::Serialize;
 use web_time::Instant;
 
 use super::parts::Sampling;
-use super::report::mesh_warnings;
 use super::stage::ms_since;
-use super::{Error, Timings};
 use crate::grid::{Grid, GridError};
+use crate::job::report::mesh_warnings;
+use crate::job::{Error, Timings};
 use crate::ldi::LdiError;
 use crate::model::{Bounds, FacetClass, Mesh, Pose, rotation_matrix};
 use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supporting, Supports, Void};
@@ -295,7 +295,7 @@ fn hollow(
 }
 
 impl Supported {
-    pub(super) fn of(supports: &Supports, support_mm3: f64) -> Self {
+    pub(in crate::job) fn of(supports: &Supports, support_mm3: f64) -> Self {
         Self {
             support_ml: support_mm3 / 1e3,
             lift_mm: supports.lift_mm,

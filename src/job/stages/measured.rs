@@ -3,10 +3,10 @@
 use std::cell::LazyCell;
 use std::sync::Arc;
 
-use super::Error;
 use super::parts::Layering;
 use super::sampled::Sampled;
 use crate::grid::Bins;
+use crate::job::Error;
 use crate::ldi::LdiError;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::shapes::Shapes;

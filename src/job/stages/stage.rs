@@ -71,7 +71,7 @@ const PLANNING: [(Stage, f64); 4] = [
 pub type StageProgress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
 /// Reports that `fraction` of a stage is done, and turns a cancellation into an error.
-pub(super) fn report(
+pub(in crate::job) fn report(
     progress: &mut StageProgress<'_>,
     stage: Stage,
     fraction: f64,
@@ -83,7 +83,7 @@ pub(super) fn report(
 }
 
 /// Milliseconds since `clock` was started.
-pub(super) fn ms_since(clock: Instant) -> f64 {
+pub(in crate::job) fn ms_since(clock: Instant) -> f64 {
     clock.elapsed().as_secs_f64() * 1e3
 }
 
