@@ -2,14 +2,12 @@
 
 mod calibration;
 mod check;
-mod claimed;
 mod compare;
 mod convert;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
 mod groups;
-mod job_options;
 mod jobs;
 mod loaded;
 mod options;
@@ -17,8 +15,6 @@ mod options_error;
 mod orient;
 mod outputs;
 mod places;
-mod price;
-mod print;
 mod report;
 mod resolve;
 mod shapes;
@@ -31,7 +27,6 @@ pub use check::{ModelPrintability, PlatePrintability};
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
 pub use groups::LayerGroups;
-pub use job_options::{JobOptions, ModelOptions, Placement};
 pub use jobs::Job;
 pub use loaded::LoadedModel;
 pub use options::*;

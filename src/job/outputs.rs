@@ -7,7 +7,6 @@ use web_time::Instant;
 
 use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::loaded::{positions, positions_of};
-use super::print::{screen_of, write_print};
 use super::stages::parts::Output;
 use super::stages::planned::{Planned, PlannedModel};
 use super::stages::planning::Planning;
@@ -15,7 +14,7 @@ use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Report, Tradeoff};
 use crate::archive::layer_profile::{self, LayeredModel};
-use crate::archive::{Look, MaskSource, Standing};
+use crate::archive::{self, Layer, Look, MaskSource, PrintJob, Screen, Standing};
 use crate::arrange::ArrangeError;
 use crate::mask::{MaskCursor, PlateMasks, PlateRuns, Side, Stamp};
 use crate::model::{FacetClass, Mesh};
@@ -379,4 +378,51 @@ fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
         }));
     }
     Look::of_copies(&copies)
+}
+
+/// Writes the print file of a plan that is exported as `output`, with these masks.
+///
+/// # Errors
+/// [`Error::Archive`].
+fn write_print<W: Write>(
+    planned: &Planned,
+    output: &Output,
+    report: &Report,
+    masks: MaskSource<'_>,
+    look: &dyn Fn() -> Look,
+    writer: W,
+    progress: &mut Progress<'_>,
+) -> Result<W, Error> {
+    let layers: Vec<Layer> = (0..report.layers)
+        .map(|layer| Layer {
+            z_mm: report.z_mm[layer + 1],
+            thickness_mm: report.thickness_mm[layer],
+            exposure_s: report.exposure_s[layer],
+        })
+        .collect();
+    let job = PrintJob {
+        screen: screen_of(planned, output),
+        layers: &layers,
+        masks,
+        height_mm: report.height_mm,
+        resin: &planned.layering.resin,
+        transition_layers: 0,
+        resin_ml: report.resin_ml,
+        printer: output.printer.as_deref(),
+        best_uniform: &|| planned.best_uniform(),
+        look,
+        manifest: &|| report.manifest(),
+    };
+    Ok(archive::write(output.format, &job, writer, progress)?)
+}
+
+/// The screen that shows the masks of a plan.
+fn screen_of(planned: &Planned, output: &Output) -> Screen {
+    let grid = &planned.first().of.grid;
+    Screen {
+        pixels: [grid.width, grid.height],
+        pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
+        is_mirrored: output.is_mirrored,
+        antialias: planned.first().of.sampling.samples.sublayers,
+    }
 }

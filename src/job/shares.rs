@@ -9,6 +9,7 @@ use super::stages::prepared::{Hollowed, Supported};
 use super::{Error, Job, JobOptions, ModelOptions, Report};
 use crate::model::ModelFile;
 use crate::plan::Plan;
+use crate::price::PriceItem;
 use crate::resin::Resin;
 use crate::warning::Warning;
 
@@ -181,4 +182,24 @@ pub struct JobReport {
     pub resin_ml: f64,
     /// The report of each plate.
     pub plates: Vec<Report>,
+}
+
+impl Report {
+    /// What `copies` prints of this plate need: each copy has its share of the time.
+    pub fn price_items(&self, copies: usize) -> Vec<PriceItem> {
+        let models = self.models.iter().map(|model| PriceItem {
+            copies: model.copies.saturating_mul(copies),
+            resin_ml: model.resin_ml,
+            print_time_s: model.print_time_s,
+        });
+        models.collect()
+    }
+}
+
+impl JobReport {
+    /// What all copies on all plates need.
+    pub fn price_items(&self) -> Vec<PriceItem> {
+        let plates = self.plates.iter();
+        plates.flat_map(|plate| plate.price_items(1)).collect()
+    }
 }
