@@ -94,6 +94,8 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
       if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
       return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
     },
+    /** All of several: `a.stl and b.stl`. */
+    all: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "conjunction" }).format(items),
     /** A choice of one from several: `.ctb or .goo`. */
     either: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "disjunction" }).format(items),
     /** Width × depth × height: `60.0 × 46.5 × 59.5 mm`. */

@@ -1,12 +1,12 @@
 /** The card of the open model. */
-import { warningsOf } from "../../api/results.js";
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { PlateChoice, Warning } from "../../api/wire.js";
+import { shown } from "../../api/visible.js";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
 import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
-import { advise, allowed, bestUniform } from "../state/advice.js";
+import { adviseOn, allowed, bestUniform } from "../state/advice.js";
 import { enough } from "../state/comparison.js";
 import { ownHeight } from "../state/result.js";
 import type { Session } from "../state/session.js";
@@ -34,17 +34,21 @@ export interface ModelActions {
   openFile(place: number): void;
 }
 
-/** The warnings of the model and its plan, with what may help. */
+/** The warnings of the models and of the plan, with what may help. Of several models each warning names its own. */
 export function warnings(session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
-  const { model, result, fixed, settings } = session;
+  const { model, result, fixed, settings, plate: { entries } } = session;
   // The size is not odd once a unit or a height is chosen.
   const isSized = settings.unit !== "" || settings.height.trim() !== "";
   const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
-  const all = asked([...(model?.info.warnings ?? []), ...(result === null ? [] : warningsOf(result.report))]);
-  return advise(all, language, fixed).map(
-    ({ text, offers, towers, plates }) => html`<div class="warning">
-      <p>${text}</p>
-      ${plates === null ? nothing : plateList(session, plates, text, language)}
+  const planned = result?.report.models ?? [];
+  const all = entries.map(({ model: { name, info } }, place) => ({
+    name: entries.length > 1 ? shown(name) : null,
+    warnings: asked([...info.warnings, ...planned.flatMap((of) => (of.model === place ? of.warnings : []))]),
+  }));
+  return adviseOn([...all, { name: null, warnings: asked(result?.report.warnings ?? []) }], language, fixed).map(
+    ({ text, offers, towers, plates, names }) => html`<div class="warning">
+      <p>${names.size > 0 ? html`<b>${language.format.all([...names])}</b>: ` : nothing}${text}</p>
+      ${plates === null || (names.size > 0 && !names.has(shown(model?.name ?? ""))) ? nothing : plateList(session, plates, text, language)}
       ${offerButtons(offers, (change) => session.change(change))}
       ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
     </div>`,

@@ -52,6 +52,25 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
   return [...advice.values()];
 }
 
+/** Warnings about a model; about the plate, without a name. */
+export interface Warned {
+  readonly name: string | null;
+  readonly warnings: readonly Warning[];
+}
+
+/** Warnings in words as of `advise`, each once, with the names of the models that they are about. */
+export function adviseOn(all: readonly Warned[], language: Language, fixed: ReadonlySet<keyof Settings>): (Advice & { readonly names: ReadonlySet<string> })[] {
+  const said = new Map<string, Advice & { readonly names: Set<string> }>();
+  for (const { name, warnings } of all) {
+    for (const advice of advise(warnings, language, fixed)) {
+      const { names } = said.get(advice.text) ?? { names: new Set<string>() };
+      if (name !== null) names.add(name);
+      said.set(advice.text, { ...advice, names });
+    }
+  }
+  return [...said.values()];
+}
+
 const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
 
 /** Whether the printer decides on several thicknesses, not the format. */

@@ -3,7 +3,7 @@ import { SlicerError, type ErrorCode, type ErrorDetails } from "../../api/error.
 import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { fetchProblemTexts } from "../../texts/problems.js";
-import { advise } from "./advice.js";
+import { advise, adviseOn } from "./advice.js";
 import { explain as explainIn, type Failure } from "./problem.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
@@ -197,6 +197,19 @@ test("warnings are sentences with their figures", () => {
     "The error reaches 0.071\u00a0mm, more than the tolerance of 0.05\u00a0mm.",
   );
   expect(words({ code: "black-layers", detail: { layers: 64, from_mm: 1 } })).toMatch(/^64 layers of the plan are black, from 1\.000\u00a0mm up/);
+});
+
+test("a warning about several models is said once, with their names", () => {
+  const open: Warning = { code: "open-mesh", detail: { open_edges: 3, holes: 1 } };
+  const inside: Warning = { code: "inside-out" };
+  const of = [
+    { name: "a.stl", warnings: [inside] },
+    { name: "b.stl", warnings: [open, inside, inside] },
+    { name: null, warnings: [{ code: "black-layers", detail: { layers: 64, from_mm: 1 } }] },
+  ] as const;
+  const said = adviseOn(of, languageOf("en"), new Set());
+  expect(said.map(({ text, names }) => [text.slice(0, 8), ...names])).toEqual([["The mesh", "a.stl", "b.stl"], [expect.any(String), "b.stl"], ["64 layer"]]);
+  expect(languageOf("en").format.all(["a.stl", "b.stl"])).toBe("a.stl and b.stl");
 });
 
 test("a warning is said once, and offers what keeps the tolerance in layers of one thickness", () => {
