@@ -12,7 +12,7 @@ import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
-import { cup } from "./solids.js";
+import { cup, prism } from "./solids.js";
 
 const start = pages();
 const mug = { name: "mug.stl", bytes: cup(10, 8, 1.5) };
@@ -49,7 +49,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   const [band, plot] = await Promise.all([page.locator("cusp-chart .range").boundingBox(), page.locator("cusp-chart .u-over").boundingBox()]);
   // Of 8 mm, the hollow begins 1.5 mm above the plate.
   expect((band?.height ?? 0) / (plot?.height ?? 1)).toBeCloseTo(6.5 / 8, 1);
-  expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.mark?.bounds_mm[1][2])).toBeCloseTo(8, 1);
+  expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.marks[0]?.bounds_mm[1][2])).toBeCloseTo(8, 1);
 
   // With the limits of a shop, the page hears the verdict.
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
@@ -69,6 +69,27 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   await expect.poll(() => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.models[0]?.findings.map(({ code }) => code))).not.toContain("cup");
   await expect.poll(() => found.count()).toBe(0);
   expect(await page.locator("cusp-chart .range").isVisible()).toBe(false);
+});
+
+test("on a plate a finding is marked on each copy that stands alike, and warnings name their model", async () => {
+  const page = await start("?backend=cpu&printer=mars-4-ultra&rays=512");
+  // Of a block a side is missing.
+  const block = prism(12, 8).bytes.slice(0, -50);
+  const facets = new DataView(block.buffer);
+  facets.setUint32(80, facets.getUint32(80, true) - 1, true);
+  await drop(page, mug, { name: "block.stl", bytes: block });
+  await state(page, "done");
+  await page.getByRole("button", { name: "One more: Copies of mug.stl" }).click();
+  await settled(page);
+  expect(await page.locator(".warning b").allTextContents()).toContain("block.stl");
+  await openPanel(page, "Check");
+  const found = page.locator("cusp-findings button.finding").first();
+  await found.click();
+  expect(await found.getAttribute("aria-pressed")).toBe("true");
+  const places = (): Promise<number[]> => page.locator("cusp-view").evaluate((view: CuspView) => view.marks.map(({ at_mm: [x] }) => x));
+  expect(new Set(await places()).size).toBe(2);
+  await found.press("Escape");
+  expect(await places()).toEqual([]);
 });
 
 const program = process.env["CUSP"];

@@ -62,7 +62,7 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     .isPlanning=${session.busy?.task === "plan" && session.result === null}
     .shown=${shown}
     .layer=${layer}
-    .mark=${session.checks.chosen}
+    .marks=${session.checks.marks}
     .walls_mm=${session.checks.showsWalls ? session.checks.wall_mm : null}
     @cusp-walls=${() => (session.checks.showsWalls = false)}
     .rotation=${turning ?? rotationOf(settings.rotation)}
@@ -136,7 +136,7 @@ export function maskPanel({ element, session, language }: Facts, result: Result)
   if (!maskCode.isThere) return maskCode.instead(element, language);
   return html`<cusp-mask
     .mask=${session.mask}
-    .mark=${session.checks.chosen}
+    .marks=${session.checks.marks}
     .report=${result.report}
     .limits=${result.limits}
     .layer=${session.layer}

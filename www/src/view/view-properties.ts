@@ -40,8 +40,8 @@ export const PROPERTIES = {
   limits: given<readonly [number, number]>([0, 0]),
   /** The selected layer, counted from 0. */
   layer: given<number | null>(null),
-  /** A place that is marked and turned to the viewer; null: none. */
-  mark: given<Mark | null>(null),
+  /** Places that are marked; the first is turned to the viewer. */
+  marks: given<readonly Mark[]>([]),
   /** The printer's build volume; without one the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
   /** The copies on the plate, of which the model is the one at `selected`; empty: it is alone in the middle. */

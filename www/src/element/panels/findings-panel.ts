@@ -115,10 +115,10 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   }
 
   /** The findings of a model, below its name if there are several. */
-  #model({ model, copies, found }: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
+  #model({ model, copies_mm, found }: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
     if (found.findings.length === 0) return nothing;
     const name = model === null ? null : shown(this.names[model] ?? "");
-    return html`${name === null ? nothing : html`<h4 class="model">${this.language.format.count(copies)} × ${name}</h4>`}
+    return html`${name === null ? nothing : html`<h4 class="model">${this.language.format.count(copies_mm.length)} × ${name}</h4>`}
     ${found.counts.map((count) => this.#kind(count, found, `${count.code}-${place}`, words))}`;
   }
 

@@ -40,8 +40,8 @@ const PROPERTIES = {
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
-  /** The finding to be shown, in its layers. */
-  mark: given<Pick<Finding, "bounds_mm" | "layers"> | null>(null),
+  /** The finding to be shown, in its layers on each copy. */
+  marks: given<readonly Pick<Finding, "bounds_mm" | "layers">[]>([]),
   language: given(languageOf()),
   place: own(WHOLE),
   playing: own(false),
@@ -151,7 +151,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("mask") || changed.has("place") || changed.has("mark")) this.#paint();
+    if (changed.has("mask") || changed.has("place") || changed.has("marks")) this.#paint();
     if (this.playing && changed.has("mask")) this.#next();
   }
 
@@ -195,25 +195,26 @@ export class CuspMask extends elementWith(PROPERTIES) {
     canvas.dataset["layer"] = String(mask.layer);
   }
 
-  /** Draws a box around the finding, if it is in the layer of the picture. */
+  /** Draws boxes around the finding, if it is in the layer of the picture. */
   #mark(pen: CanvasRenderingContext2D, part: Rectangle, scale: readonly [number, number]): void {
-    const { mask, mark, report } = this;
-    const isHere = mask !== null && mark !== null && report !== null && mask.layer >= mark.layers[0] && mask.layer <= mark.layers[1];
-    this.#canvas.toggleAttribute("data-marked", isHere);
-    if (!isHere) return;
+    const { mask, report } = this;
+    const marks = mask === null ? [] : this.marks.filter(({ layers: [first, last] }) => mask.layer >= first && mask.layer <= last);
+    this.#canvas.toggleAttribute("data-marked", marks.length > 0);
+    if (mask === null || report === null) return;
     const { pitch_mm, pitch_y_mm } = report.mask;
-    const [[left, front], [right, back]] = mark.bounds_mm;
     // The model is in the middle of the mask, whose rows begin at the back.
     const at = (x_mm: number, y_mm: number): Point => [
       (mask.width / 2 + x_mm / pitch_mm - part.x) * scale[0],
       (mask.height / 2 - y_mm / pitch_y_mm - part.y) * scale[1],
     ];
-    const [[x0, y0], [x1, y1]] = [at(left, back), at(right, front)];
     const room = MARK_ROOM_PX * devicePixelRatio;
-    for (const [colour, width] of [["#000", 4], [MARK_COLOUR, 2]] as const) {
-      pen.strokeStyle = colour;
-      pen.lineWidth = width * devicePixelRatio;
-      pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
+    for (const { bounds_mm: [[left, front], [right, back]] } of marks) {
+      const [[x0, y0], [x1, y1]] = [at(left, back), at(right, front)];
+      for (const [colour, width] of [["#000", 4], [MARK_COLOUR, 2]] as const) {
+        pen.strokeStyle = colour;
+        pen.lineWidth = width * devicePixelRatio;
+        pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
+      }
     }
   }
 

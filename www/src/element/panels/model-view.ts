@@ -68,8 +68,8 @@ const PROPERTIES = {
   isPlanning: given(false),
   shown: given<Shown | null>(null),
   layer: given(0),
-  /** The finding to be shown. */
-  mark: given<Mark | null>(null),
+  /** The finding to be shown, on each copy. */
+  marks: given<readonly Mark[]>([]),
   /** Whether to show how thick the model is: what is thinner than this is marked, mm; null: not to. */
   walls_mm: given<number | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
@@ -225,7 +225,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
               .layer=${shown === null || showsHeat || isPlacing || walls_mm !== null ? null : this.layer}
-              .mark=${this.mark}
+              .marks=${this.marks}
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
               .wall_mm=${walls_mm ?? WALL_MM}

@@ -6,7 +6,8 @@ import type { Finding, Printability, Report } from "../../api/wire.js";
 export interface Checked {
   /** The model, by its place; null for a model alone. */
   readonly model: number | null;
-  readonly copies: number;
+  /** Places of these copies from the first one, mm. */
+  readonly copies_mm: readonly (readonly [number, number])[];
   /** Findings are where the model stands; of several copies, where the first does. */
   readonly found: Pick<Printability, "findings" | "counts">;
 }
@@ -15,15 +16,23 @@ type Place = readonly [number, number, number];
 
 /** The models of a check, with their findings at their places on the plate. */
 export function checkedOf(check: Check, { placements: all }: Report): readonly Checked[] {
-  if (all.length === 1) return check.models.map((found) => ({ model: null, copies: 1, found }));
+  if (all.length === 1) return check.models.map((found) => ({ model: null, copies_mm: [[0, 0]], found }));
   return check.models.map(({ model, turn_deg, findings, counts }) => {
     const placements = all.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
-    const moved = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
-    const placed = (finding: Finding): Finding => {
-      const [low, high] = finding.bounds_mm;
-      return { ...finding, at_mm: moved(finding.at_mm), bounds_mm: [moved(low), moved(high)] };
-    };
-    return { model, copies: placements.length, found: { counts, findings: findings.map(placed) } };
+    const copies_mm = placements.map((it) => [(it.x_mm ?? 0) - x_mm, (it.y_mm ?? 0) - y_mm] as const);
+    return { model, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
   });
+}
+
+/** A finding on each copy that stands like the one it is on, which comes first. */
+export function onCopies(finding: Finding, models: readonly Checked[]): readonly Finding[] {
+  const copies_mm = models.find(({ found }) => found.findings.includes(finding))?.copies_mm ?? [];
+  return copies_mm.map((place_mm) => moved(finding, place_mm));
+}
+
+function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Finding {
+  const to = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
+  const [low, high] = finding.bounds_mm;
+  return { ...finding, at_mm: to(finding.at_mm), bounds_mm: [to(low), to(high)] };
 }

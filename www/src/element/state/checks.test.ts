@@ -103,7 +103,7 @@ test("limits are a wish of their own, and other limits check again", async () =>
   expect(asked()).toBe(2);
 });
 
-test("on a plate each model is checked, and its findings are where its first copy stands", async () => {
+test("on a plate each model is checked, its findings are where its first copy stands, and marked on each that stands alike", async () => {
   await planned();
   session.change({ tolerances: { ...session.settings.tolerances, volume: "20" } });
   await settle();
@@ -128,8 +128,13 @@ test("on a plate each model is checked, and its findings are where its first cop
   expect(asked).toEqual([[{}, { plate: 3 }]]);
   expect(session.checks.check).toBe(check);
   const [sound, cup] = session.checks.models;
-  expect(sound).toMatchObject({ model: 0, copies: 1, found: { findings: [] } });
-  expect(cup).toMatchObject({ model: 1, copies: 2, found: { counts, findings: [{ at_mm: [-20, 5, 1], bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }] } });
+  expect(sound).toMatchObject({ model: 0, copies_mm: [[0, 0]], found: { findings: [] } });
+  expect(cup).toMatchObject({ model: 1, copies_mm: [[0, 0], [40, 0]], found: { counts, findings: [{ at_mm: [-20, 5, 1], bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }] } });
+  expect(session.checks.marks).toEqual([]);
+  session.checks.choose(cup?.found.findings[0] ?? null);
+  expect(session.checks.marks).toMatchObject([{ bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }, { bounds_mm: [[19, 4, 0], [21, 6, 2]] }]);
+  session.checks.choose(null);
+  expect(session.checks.marks).toEqual([]);
 });
 
 test("a failure is the panel's alone, and stays until there is another plan", async () => {

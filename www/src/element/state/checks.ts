@@ -4,7 +4,7 @@ import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { WALL_MM } from "../../view/walls/scale.js";
 import { isEqual } from "./plain.js";
-import { checkedOf, type Checked } from "./checked.js";
+import { checkedOf, onCopies, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -25,6 +25,8 @@ interface Subject {
   readonly limits: Limits | null;
 }
 
+const NO_MARKS: readonly Finding[] = [];
+
 export class Checks {
   /** The last check, which may be of an earlier plan. */
   last: Check | null = null;
@@ -35,6 +37,7 @@ export class Checks {
   #limits: Limits | null = null;
   #isOpen = false;
   #chosen: Finding | null = null;
+  #marks = NO_MARKS;
   #showsWalls = false;
   #error: SlicerError | null = null;
   /** The plan and the limits of the last check, or of its failure. */
@@ -103,9 +106,15 @@ export class Checks {
     return this.check === null ? null : this.#chosen;
   }
 
+  /** The chosen finding on each copy that stands alike; empty without one. */
+  get marks(): readonly Finding[] {
+    return this.chosen === null ? NO_MARKS : this.#marks;
+  }
+
   /** Chooses a finding of the current check and shows its first layer; the chosen one again, or null, clears the choice. */
   choose(finding: Finding | null): void {
     this.#chosen = finding === this.chosen ? null : finding;
+    this.#marks = this.#chosen === null ? NO_MARKS : onCopies(this.#chosen, this.models);
     if (this.chosen === null) this.#host.changed();
     else this.#host.look(this.chosen.layers[0]);
   }

@@ -1,4 +1,4 @@
-/** A box that marks a place on the model; seen through it, too. */
+/** Boxes that mark a place on each copy of a model; seen through it, too. */
 import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial } from "three";
 import type { Triple } from "./pose.js";
 
@@ -26,22 +26,26 @@ export class Marker {
   readonly #fill = new MeshBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: 0.25, depthTest: false, depthWrite: false });
   readonly #lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, depthTest: false, depthWrite: false });
 
-  constructor() {
-    const [fill, lines] = [new Mesh(this.#box, this.#fill), new LineSegments(this.#edges, this.#lines)];
-    // After the model, which it shines through.
-    fill.renderOrder = 10;
-    lines.renderOrder = 11;
-    this.group.add(fill, lines);
-    this.group.visible = false;
+  /** Diagonal of each box, mm: marks are copies of one. */
+  get diagonal_mm(): number {
+    return this.group.children[0]?.scale.length() ?? 0;
   }
 
-  set(mark: Mark | null, size_mm: Triple): void {
-    this.group.visible = mark !== null;
-    if (mark === null) return;
-    const [low, high] = mark.bounds_mm;
+  set(marks: readonly Mark[], size_mm: Triple): void {
     const least = LEAST * Math.max(...size_mm);
-    this.group.position.set(...middleOf(mark));
-    this.group.scale.set(Math.max(least, high[0] - low[0]), Math.max(least, high[1] - low[1]), Math.max(least, high[2] - low[2]));
+    const boxes = marks.map((mark) => {
+      const [low, high] = mark.bounds_mm;
+      const [fill, lines] = [new Mesh(this.#box, this.#fill), new LineSegments(this.#edges, this.#lines)];
+      // After the model, which it shines through.
+      fill.renderOrder = 10;
+      lines.renderOrder = 11;
+      const box = new Group().add(fill, lines);
+      box.position.set(...middleOf(mark));
+      box.scale.set(Math.max(least, high[0] - low[0]), Math.max(least, high[1] - low[1]), Math.max(least, high[2] - low[2]));
+      return box;
+    });
+    this.group.clear();
+    if (boxes.length > 0) this.group.add(...boxes);
   }
 
   dispose(): void {

@@ -239,12 +239,13 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Marks a place and turns it to the viewer; null ends that, and brings the camera back unless it was moved since. */
-  setMark(mark: Mark | null, duration_ms: number): void {
-    this.#marker.set(mark, this.model.size_mm);
+  /** Marks places and turns the first to the viewer; none ends that, and brings the camera back unless it was moved since. */
+  setMarks(marks: readonly Mark[], duration_ms: number): void {
+    this.#marker.set(marks, this.model.size_mm);
     const isAligned = this.align() !== null;
-    if (mark === null) this.cameras.withdraw(duration_ms);
-    else this.cameras.face(middleOf(mark), this.#marker.group.scale.length(), isAligned ? 0 : duration_ms);
+    const [first] = marks;
+    if (first === undefined) this.cameras.withdraw(duration_ms);
+    else this.cameras.face(middleOf(first), this.#marker.diagonal_mm, isAligned ? 0 : duration_ms);
     this.invalidate();
   }
 
