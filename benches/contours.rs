@@ -5,7 +5,7 @@
 
 use cusp_slicer::contour::cli::Cli;
 use cusp_slicer::contour::svg::Svg;
-use cusp_slicer::contour::{Contours, Heading, Lattice, LayerHeights, Polygon, cut};
+use cusp_slicer::contour::{Contours, Copies, Heading, Lattice, LayerHeights, Polygon, cut};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 
@@ -50,10 +50,16 @@ fn row(name: &str, mesh: &Mesh, simplify_mm: f64) {
         layers: LAYERS,
     };
     let run = |collect: &mut dyn FnMut(&Contours)| {
-        cut(mesh, &layers, simplify_mm, &mut silent, |contours| {
-            collect(&contours);
-            Ok::<_, Cancelled>(())
-        })
+        cut(
+            &[Copies::one(mesh)],
+            &layers,
+            simplify_mm,
+            &mut silent,
+            |contours| {
+                collect(&contours);
+                Ok::<_, Cancelled>(())
+            },
+        )
         .expect("contours");
     };
     let (cut_s, points) = time(|| {

@@ -14,6 +14,8 @@ mod simplify;
 pub mod svg;
 mod union;
 
+use glam::DVec2;
+
 use crate::model::{Bounds, Mesh};
 use crate::parallel;
 use crate::plan::Plan;
@@ -56,6 +58,21 @@ pub struct Polygon {
 }
 
 impl Polygon {
+    /// A copy at an offset in steps.
+    fn moved(&self, [right, back]: [i32; 2]) -> Self {
+        let moved = |ring: &Ring| Ring {
+            points: ring
+                .points
+                .iter()
+                .map(|[x, y]| [x + right, y + back])
+                .collect(),
+        };
+        Self {
+            outer: moved(&self.outer),
+            holes: self.holes.iter().map(moved).collect(),
+        }
+    }
+
     /// The outer ring, then the holes.
     pub fn rings(&self) -> impl Iterator<Item = &Ring> {
         std::iter::once(&self.outer).chain(&self.holes)
@@ -97,6 +114,38 @@ pub struct Contours {
     pub polygons: Vec<Polygon>,
 }
 
+/// Copies of a mesh on a plate. They overlap neither each other nor those of other meshes.
+#[derive(Debug, Clone)]
+pub struct Copies<'a> {
+    /// The mesh, on the plate at z = 0.
+    pub mesh: &'a Mesh,
+    /// The place of its origin, for each copy.
+    pub places_mm: Vec<DVec2>,
+}
+
+impl<'a> Copies<'a> {
+    /// A mesh where it is.
+    pub fn one(mesh: &'a Mesh) -> Self {
+        Self {
+            mesh,
+            places_mm: vec![DVec2::ZERO],
+        }
+    }
+
+    /// The box around all of them, supports left out.
+    pub fn bounds(all: &[Self]) -> Bounds {
+        let boxes = all.iter().flat_map(|copies| {
+            let Bounds { min, max } = copies.mesh.bounds();
+            let places_mm = copies.places_mm.iter();
+            places_mm.map(move |place| [min + place.extend(0.0), max + place.extend(0.0)])
+        });
+        let [min, max] = boxes
+            .reduce(|[min, max], [low, high]| [min.min(low), max.max(high)])
+            .unwrap_or_default();
+        Bounds { min, max }
+    }
+}
+
 /// A length in millimetres as files and reports show it: to the picometre, as planes of layers are.
 fn shown(length_mm: f64) -> f64 {
     (length_mm * 1e9).round() / 1e9
@@ -109,13 +158,14 @@ pub struct Heading<'a> {
     pub title: &'a str,
     /// The lattice of all points.
     pub lattice: Lattice,
-    /// The box around the model.
+    /// The box around all that is cut, supports left out.
     pub bounds: Bounds,
     /// Number of layers.
     pub layers: usize,
 }
 
-/// Cuts a mesh, as it stands on the plate, at every layer, in ascending order, and passes the contours to `collect` from the plate upward.
+/// Cuts meshes at every layer, in ascending order, and passes the contours to `collect` from the plate upward. A mesh is cut once for all
+/// of its copies, which are moved to the nearest lattice points.
 ///
 /// No point of the contours is farther than `simplify_mm` from the outline of the exact section, and none of that outline is farther than that
 /// from the contours, apart from rounding to the lattice; 0 keeps every point.
@@ -126,20 +176,30 @@ pub struct Heading<'a> {
 /// # Errors
 /// Those of `collect`, and [`Cancelled`] if `progress` cancels.
 pub fn cut<E: From<Cancelled>>(
-    mesh: &Mesh,
+    all: &[Copies<'_>],
     layers: &[LayerHeights],
     simplify_mm: f64,
     progress: &mut Progress<'_>,
     collect: impl FnMut(Contours) -> Result<(), E>,
 ) -> Result<(), E> {
-    let lattice = Lattice::of(&mesh.bounds());
+    let lattice = Lattice::of(&Copies::bounds(all));
     let sections_mm: Vec<f64> = layers.iter().map(|layer| layer.section_mm).collect();
-    let crossings = Crossings::new(mesh, &sections_mm);
+    let meshes = all.iter();
+    let crossings: Vec<Crossings> = meshes
+        .map(|copies| Crossings::new(copies.mesh, &sections_mm))
+        .collect();
     let tolerance = lattice.to_steps(simplify_mm);
     let work = |layer: usize| {
         let heights = layers[layer];
-        let loops = Loops::of(mesh, crossings.of(layer), heights.section_mm, lattice);
-        let polygons = simplify::simplify(union::union(&loops), tolerance);
+        let mut polygons = Vec::new();
+        for (Copies { mesh, places_mm }, crossings) in all.iter().zip(&crossings) {
+            let loops = Loops::of(mesh, crossings.of(layer), heights.section_mm, lattice);
+            let of_one = simplify::simplify(union::union(&loops), tolerance);
+            for &place_mm in places_mm {
+                let offset = lattice.nearest(place_mm);
+                polygons.extend(of_one.iter().map(|polygon| polygon.moved(offset)));
+            }
+        }
         Contours { heights, polygons }
     };
     parallel::map_in_groups(0..layers.len(), work, collect, progress, [0.0, 1.0])

@@ -3,6 +3,7 @@
 use std::io::Write;
 use std::sync::Arc;
 
+use glam::DVec2;
 use web_time::Instant;
 
 use super::groups::{ENCODED_SHARE, LayerGroups};
@@ -117,6 +118,22 @@ impl Job {
         let models = found.planned.models.iter();
         let meshes = models.map(|model| model.sampled().mesh());
         Ok((meshes.collect(), &found.planned.plan))
+    }
+
+    /// The places in millimetres of the copies of each model of [`Job::planned`]: of its origin, from the middle of the plate.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Arrange`].
+    pub fn places_mm(&self, plate: usize) -> Result<Vec<Vec<DVec2>>, Error> {
+        let found = self.plate(plate)?;
+        let [x_mm, y_mm] = screen_of(&found.planned, &found.output).pitch_mm;
+        let place_mm = |&[right, down]: &[i32; 2]| {
+            DVec2::new(f64::from(right) * x_mm, -f64::from(down) * y_mm)
+        };
+        let offsets = found.offsets.iter();
+        Ok(offsets
+            .map(|it| it.iter().map(place_mm).collect())
+            .collect())
     }
 
     /// The profile of a metric on a plate: in each bin the largest of its models.

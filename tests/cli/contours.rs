@@ -87,6 +87,91 @@ fn a_tolerance_leaves_out_points() {
     assert!(points("0") > points("0.01") && points("0.01") > points("0.1"));
 }
 
+/// The boxes around the outer rings of the lowest layer of an SVG, mm.
+fn lowest_boxes(svg: &str) -> Vec<[f64; 4]> {
+    let layer = svg.split("<g id=").nth(1).unwrap();
+    let paths = layer.split(" d=\"").skip(1);
+    let boxes = paths.map(|path| {
+        let ring = path.split(['z', '"']).next().unwrap();
+        let numbers = ring.split(|it: char| !(it.is_ascii_digit() || it == '.' || it == '-'));
+        let numbers: Vec<f64> = numbers.flat_map(str::parse).collect();
+        let (mut low, mut high) = ([f64::MAX; 2], [f64::MIN; 2]);
+        for point in numbers.chunks_exact(2) {
+            for axis in 0..2 {
+                low[axis] = low[axis].min(point[axis]);
+                high[axis] = high[axis].max(point[axis]);
+            }
+        }
+        [low[0], low[1], high[0], high[1]]
+    });
+    boxes.collect()
+}
+
+#[test]
+fn contours_of_a_plate_are_those_of_each_model_where_its_copies_stand() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let block = model(
+        &folder,
+        "block.stl",
+        &binary_stl(&solids::cuboid([8.0, 4.0, 3.0].into())),
+    );
+    let plate = [&*format!("{ball}:2"), &block];
+    let same = ["--json", "--pixels", "1000x600", "--pitch", "0.05"];
+    let path = folder.path().join("plate.svg").display().to_string();
+    let command = [&["contours"][..], &plate, &same, &["-o", &path]].concat();
+    let report = json(&on_cpu(&command));
+    let command = [&["plan", "--arrange"][..], &plate, &same].concat();
+    let plan = json(&on_cpu(&command));
+    assert_eq!(report["layers"], plan["layers"]);
+    let volume = report["volume_mm3"].as_f64().unwrap();
+    assert!(
+        (2.0 * 110.0 + 96.0..2.0 * 113.2 + 96.1).contains(&volume),
+        "{volume}"
+    );
+    // Each outline is around the place of one copy, turned as it stands.
+    let boxes = lowest_boxes(&fs::read_to_string(&path).unwrap());
+    let placements = plan["placements"].as_array().unwrap();
+    assert_eq!((boxes.len(), placements.len()), (3, 3));
+    for place in placements {
+        let number = |name: &str| place[name].as_f64().unwrap_or(0.0);
+        let (x, y) = (number("x_mm"), number("y_mm"));
+        let at = |it: &&[f64; 4]| {
+            (it[0] + it[2] - 2.0 * x).abs() < 2e-3 && (it[1] + it[3] - 2.0 * y).abs() < 2e-3
+        };
+        let found = boxes
+            .iter()
+            .find(at)
+            .unwrap_or_else(|| panic!("{place}: {boxes:?}"));
+        if place["model"] == 1 {
+            let (sin, cos) = number("turn_deg").to_radians().sin_cos();
+            let size = [
+                8.0 * cos.abs() + 4.0 * sin.abs(),
+                8.0 * sin.abs() + 4.0 * cos.abs(),
+            ];
+            assert!((found[2] - found[0] - size[0]).abs() < 1e-3, "{found:?}");
+            assert!((found[3] - found[1] - size[1]).abs() < 1e-3, "{found:?}");
+        }
+    }
+}
+
+#[test]
+fn each_plate_has_a_file_of_contours() {
+    let folder = TempDir::new().unwrap();
+    let ball = format!("{}:3", sphere(&folder));
+    let path = folder.path().join("balls.cli").display().to_string();
+    let small = ["--pixels", "300x150", "--pitch", "0.05", "-o", &path];
+    let shown = on_cpu(&[&["contours", &ball][..], &small].concat());
+    assert!(
+        shown.status.success(),
+        "{}",
+        String::from_utf8_lossy(&shown.stderr)
+    );
+    assert_eq!(names(&folder), ["ball.stl", "balls-1.cli", "balls-2.cli"]);
+    let shown = String::from_utf8(shown.stdout).unwrap();
+    assert!(shown.contains("balls-2.cli\nlayers"), "{shown}");
+}
+
 #[test]
 fn other_files_than_svg_and_cli_are_refused_before_any_work() {
     let folder = TempDir::new().unwrap();

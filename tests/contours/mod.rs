@@ -8,7 +8,7 @@ mod simplify;
 mod union;
 
 use crate::common::{on_plate, solids::Triangles};
-use cusp_slicer::contour::{Contours, Lattice, LayerHeights, Polygon, Ring, cut};
+use cusp_slicer::contour::{Contours, Copies, Lattice, LayerHeights, Polygon, Ring, cut};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::{Cancelled, silent};
 
@@ -23,11 +23,17 @@ fn contours_of(mesh: &Mesh, sections_mm: &[f64], simplify_mm: f64) -> Vec<Contou
         })
         .collect();
     let mut found = Vec::new();
-    let cut = cut(mesh, &layers, simplify_mm, &mut silent, |contours| {
-        oracle::assert_valid(&contours.polygons);
-        found.push(contours);
-        Ok::<_, Cancelled>(())
-    });
+    let cut = cut(
+        &[Copies::one(mesh)],
+        &layers,
+        simplify_mm,
+        &mut silent,
+        |contours| {
+            oracle::assert_valid(&contours.polygons);
+            found.push(contours);
+            Ok::<_, Cancelled>(())
+        },
+    );
     cut.unwrap();
     assert_eq!(found.len(), sections_mm.len());
     found

@@ -3,7 +3,7 @@
 use std::fs;
 use std::process::Command;
 
-use cusp_slicer::contour::{Lattice, LayerHeights, Polygon, Ring, cut};
+use cusp_slicer::contour::{Copies, Lattice, LayerHeights, Polygon, Ring, cut};
 use cusp_slicer::progress::{Cancelled, silent};
 use glam::Vec3;
 use libtest_mimic::{Failed, Trial};
@@ -79,23 +79,29 @@ fn sections_are_those_of_trimesh() -> Result<(), Failed> {
         let theirs = String::from_utf8(output.stdout)?;
         let mut theirs = theirs.lines();
         let step_mm = Lattice::of(&mesh.bounds()).step_mm();
-        cut(&mesh, &layers, 0.0, &mut silent, |contours| {
-            let rings = || contours.polygons.iter().flat_map(Polygon::rings);
-            let area = rings().map(Ring::area).sum::<f64>() * step_mm * step_mm;
-            let length = rings().map(Ring::length).sum::<f64>() * step_mm;
-            let line = theirs.next().unwrap_or_default();
-            let numbers: Vec<f64> = line.split(' ').flat_map(str::parse).collect();
-            let z = contours.heights.section_mm;
-            assert!(length > 0.0, "{name}: nothing at {z}");
-            // Points are rounded to the lattice.
-            let points: usize = rings().map(|ring| ring.points.len()).sum();
-            let [their_area, their_length] = numbers[..] else {
-                panic!("{name} at {z}: {line}")
-            };
-            assert_near(area, their_area, length * step_mm);
-            assert_near(length, their_length, points as f64 * 2.0 * step_mm);
-            Ok::<_, Cancelled>(())
-        })?;
+        cut(
+            &[Copies::one(&mesh)],
+            &layers,
+            0.0,
+            &mut silent,
+            |contours| {
+                let rings = || contours.polygons.iter().flat_map(Polygon::rings);
+                let area = rings().map(Ring::area).sum::<f64>() * step_mm * step_mm;
+                let length = rings().map(Ring::length).sum::<f64>() * step_mm;
+                let line = theirs.next().unwrap_or_default();
+                let numbers: Vec<f64> = line.split(' ').flat_map(str::parse).collect();
+                let z = contours.heights.section_mm;
+                assert!(length > 0.0, "{name}: nothing at {z}");
+                // Points are rounded to the lattice.
+                let points: usize = rings().map(|ring| ring.points.len()).sum();
+                let [their_area, their_length] = numbers[..] else {
+                    panic!("{name} at {z}: {line}")
+                };
+                assert_near(area, their_area, length * step_mm);
+                assert_near(length, their_length, points as f64 * 2.0 * step_mm);
+                Ok::<_, Cancelled>(())
+            },
+        )?;
     }
     Ok(())
 }

@@ -6,29 +6,47 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use cusp_slicer::contour::cli::Cli;
 use cusp_slicer::contour::svg::Svg;
-use cusp_slicer::contour::{Contours, ContoursReport, Heading, Lattice, LayerHeights, cut};
-use cusp_slicer::job::Job;
+use cusp_slicer::contour::{Contours, ContoursReport, Copies, Heading, Lattice, LayerHeights, cut};
 use cusp_slicer::progress::Cancelled;
+use serde::Serialize;
 
-use crate::arguments::Studying;
+use crate::arguments::Choices;
+use crate::batch::check_inputs;
 use crate::budget::Budget;
-use crate::files::{Failure, Output, Writer};
+use crate::files::{Failure, Output, Writer, numbered};
 use crate::job::LoadedJob;
+use crate::plate::Places;
 use crate::terminal::{Bar, print, print_json};
 use crate::values::not_negative;
 use crate::watch::stop_on_interrupt;
 
-/// A model, how to slice it, and where to write its contours.
+/// Models, how to slice them, and where to write their contours.
 #[derive(Args)]
 pub struct Contouring {
-    #[command(flatten)]
-    pub studying: Studying,
-    /// Where to write the contours: FILE.svg, or FILE.cli in the Common Layer Interface
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file
+    #[arg(required = true, value_name = "MODEL[:N]")]
+    models: Vec<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    /// Where to write the contours: FILE.svg, or FILE.cli in the Common Layer Interface; of several plates each has its number in the name
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,
     /// Leave out points of contours where the outline moves by at most this; 0 keeps all
     #[arg(long, value_name = "MM", default_value_t = 0.005, value_parser = not_negative, help_heading = "Contours")]
     simplify: f64,
+    #[command(flatten)]
+    places: Places,
+    #[command(flatten)]
+    choices: Choices,
+}
+
+/// What `contours` prints as JSON.
+#[derive(Serialize)]
+#[cfg_attr(test, derive(schemars::JsonSchema))]
+pub struct Contoured {
+    /// The contours of each plate.
+    plates: Vec<ContoursReport>,
 }
 
 fn contour_file(text: &str) -> Result<PathBuf, String> {
@@ -46,66 +64,96 @@ fn is_svg(path: &Path) -> Option<bool> {
     (is("svg") || is("cli")).then(|| is("svg"))
 }
 
+/// Writes the contours of each plate.
 pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let Contouring {
-        studying, output, ..
+        models,
+        output,
+        places,
+        choices,
+        ..
     } = contouring;
-    studying.choices.check("contours");
-    let model = &*studying.model;
-    let is_svg = is_svg(output) == Some(true);
-    let output = Output::new(output, Some(model), "model")?;
-    let settings = studying.choices.settings()?;
-    let mut job = LoadedJob::alone(model, &settings, &Budget::default(), 1)?;
+    choices.check("contours");
+    check_inputs("contours", models);
+    // What cannot be written is said before anything is planned.
+    let alone = Output::new(output, models.first().map(|it| &**it), "model")?;
+    let mut job = LoadedJob::read("contours", models, places, choices, &Budget::default())?;
     stop_on_interrupt();
     let bar = Bar::new();
-    let (plan, report) = output.write(|writer| {
-        let plan = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
-        let (writer, report) = write(contouring, &job.job, &output, is_svg, writer, &bar)?;
-        Ok((writer, (plan, report)))
-    })?;
+    let plan = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
+    let files = numbered(output, plan.plates.len());
+    let outputs = match &files[..] {
+        [_] => vec![alone],
+        files => {
+            let outputs = files.iter().map(|file| Output::new(file, None, "model"));
+            outputs.collect::<Result<_, _>>()?
+        }
+    };
+    let plates = outputs.iter().enumerate().map(|(plate, output)| {
+        output.write(|writer| write(contouring, &job, plate, output, writer, &bar))
+    });
+    let plates = plates.collect::<Result<Vec<_>, _>>()?;
     drop(bar);
     job.warn(&plan);
-    if studying.json {
-        return Ok(print_json(&report)?);
+    if contouring.json {
+        return Ok(print_json(&Contoured { plates })?);
     }
-    Ok(print(&format!(
-        "layers    {}, cut at their middles\n\
-         polygons  {} with {} holes, {} points\n\
-         volume    {:.1} mm³",
-        report.layers, report.polygons, report.holes, report.points, report.volume_mm3
-    ))?)
+    let texts = plates.iter().zip(&files).map(|(report, file)| {
+        let text = format!(
+            "layers    {}, cut at their middles\n\
+             polygons  {} with {} holes, {} points\n\
+             volume    {:.1} mm³",
+            report.layers, report.polygons, report.holes, report.points, report.volume_mm3
+        );
+        match files.len() {
+            1 => text,
+            _ => format!("{}\n{text}", file.display()),
+        }
+    });
+    Ok(print(&texts.collect::<Vec<_>>().join("\n\n"))?)
 }
 
 fn write(
     contouring: &Contouring,
-    job: &Job,
+    job: &LoadedJob,
+    plate: usize,
     output: &Output<'_>,
-    is_svg: bool,
     writer: Writer,
     bar: &Bar,
 ) -> Result<(Writer, ContoursReport), Failure> {
-    let model = &contouring.studying.model;
-    let (meshes, plan) = job
-        .planned(0)
-        .map_err(|error| Failure::in_file(model, &error))?;
-    let mesh = meshes[0];
-    let (bounds, layers) = (mesh.bounds(), LayerHeights::of(plan));
+    let planned = job.job.planned(plate);
+    let (meshes, plan) = planned.map_err(|error| job.failure(&error))?;
+    let places = job.job.places_mm(plate);
+    let places = places.map_err(|error| job.failure(&error))?;
+    let copies = meshes.into_iter().zip(places);
+    let copies: Vec<_> = copies
+        .map(|(mesh, places_mm)| Copies { mesh, places_mm })
+        .collect();
+    let (bounds, layers) = (Copies::bounds(&copies), LayerHeights::of(plan));
     let lattice = Lattice::of(&bounds);
-    let title = model.file_name().unwrap_or_default().to_string_lossy();
+    let names = job.paths.iter().map(|path| path.file_name());
+    let names = names.map(|name| name.unwrap_or_default().to_string_lossy());
     let heading = Heading {
-        title: &title,
+        title: &names.collect::<Vec<_>>().join(", "),
         lattice,
         bounds,
         layers: layers.len(),
     };
     let failed = |error: io::Error| output.failed(&error);
+    let is_svg = is_svg(&contouring.output) == Some(true);
     let mut file = File::begin(is_svg, writer, heading).map_err(failed)?;
     let mut report = ContoursReport::new(lattice, contouring.simplify);
     let mut progress = |fraction| bar.show("contours", fraction);
-    let cut = cut(mesh, &layers, contouring.simplify, &mut progress, |layer| {
-        report.add(&layer);
-        file.write(&layer).map_err(Stop::Write)
-    });
+    let cut = cut(
+        &copies,
+        &layers,
+        contouring.simplify,
+        &mut progress,
+        |layer| {
+            report.add(&layer);
+            file.write(&layer).map_err(Stop::Write)
+        },
+    );
     cut.map_err(|stop| match stop {
         Stop::Cancelled => Failure::interrupted(),
         Stop::Write(error) => failed(error),

@@ -1,5 +1,6 @@
 //! Reads models, and writes files either completely or not at all.
 
+use std::ffi::OsStr;
 use std::fmt::Display;
 use std::fs;
 use std::io::{self, BufWriter, Read as _, Write};
@@ -261,6 +262,17 @@ impl WeightsFile {
             ..Failure::in_file(model, &error)
         })
     }
+}
+
+/// The file of each plate: of several, each has its number in the name.
+pub fn numbered(output: &Path, plates: usize) -> Vec<PathBuf> {
+    if plates == 1 {
+        return vec![output.to_owned()];
+    }
+    let part = |part: Option<&OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
+    let (stem, end) = (part(output.file_stem()), part(output.extension()));
+    let name = |number| output.with_file_name(format!("{stem}-{number}.{end}"));
+    (1..=plates).map(name).collect()
 }
 
 /// A file to write, either completely or not at all; or standard output, for which that cannot be promised.

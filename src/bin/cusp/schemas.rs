@@ -3,8 +3,8 @@
 use std::path::Path;
 use std::sync::Arc;
 
+use crate::contours::Contoured;
 use cusp_slicer::archive::read::Inspection;
-use cusp_slicer::contour::ContoursReport;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{JobReport, MeshInfo, Options, OrientationReport, Report, Tradeoff};
 use cusp_slicer::price::Prices;
@@ -116,7 +116,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("calibrate", output::<Calibrated>()),
         ("check", output::<Checked>()),
         ("compare", output::<Compared>()),
-        ("contours", output::<ContoursReport>()),
+        ("contours", output::<Contoured>()),
         ("convert", output::<Converted>()),
         ("error", output::<Failed>()),
         ("info", output::<MeshInfo>()),

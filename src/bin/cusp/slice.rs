@@ -15,7 +15,7 @@ use crate::arguments::{Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::budget::Budget;
 use crate::export::{export, export_plugs};
-use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder};
+use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder, numbered};
 use crate::job::LoadedJob;
 use crate::job_file::JobFile;
 use crate::plate::Places;
@@ -119,25 +119,18 @@ fn write_plate(
 
 /// The print file of each plate. Those of several have their number in the name.
 fn files_of(job: &LoadedJob, output: &Path, plates: usize) -> Result<Vec<PathBuf>, Failure> {
-    let numbered = |folder: &Path, stem: &str, end: &str| {
-        let name = |number| folder.join(format!("{stem}-{number}.{end}"));
-        (1..=plates).map(name).collect()
-    };
     if is_folder(output) {
         let print_file = job.options.options.print_file();
         let print_file = print_file.map_err(|error| job.failure(&error))?;
         make_folder(output)?;
-        return Ok(numbered(output, "plate", &print_file.extension));
+        let name = |number| output.join(format!("plate-{number}.{}", print_file.extension));
+        return Ok((1..=plates).map(name).collect());
     }
     if is_standard(output) {
         let reason = format!("{plates} plates are as many print files; name a folder by -o");
         return Err(in_file(output, &reason).into());
     }
-    let part =
-        |part: Option<&std::ffi::OsStr>| part.unwrap_or_default().to_string_lossy().into_owned();
-    let (stem, end) = (part(output.file_stem()), part(output.extension()));
-    let folder = output.parent().unwrap_or(Path::new(""));
-    Ok(numbered(folder, &stem, &end))
+    Ok(numbered(output, plates))
 }
 
 /// Meshes are written of one model.
