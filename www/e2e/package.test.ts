@@ -40,7 +40,7 @@ async function works(folder: string, ownGlobals: (name: string) => boolean = () 
   const policy = others === undefined ? undefined : policyFor(new URL(others.address).origin);
   const look = async ({ page, globals }: Ran): Promise<void> => {
     const headless = await page.waitForSelector("body[data-headless]", { timeout: 30_000 });
-    expect(await headless.getAttribute("data-headless")).toMatch(/^2 ball.stl \d{3} (cpu|gpu) true$/);
+    expect(await headless.getAttribute("data-headless")).toMatch(/^3 ball.stl \d{3} (cpu|gpu) true$/);
     expect(globals.filter((name) => !ownGlobals(name))).toEqual([]);
   };
   await visit(browser, await serveFolder(folder, policy), look, others === undefined ? [] : [others.address]);
@@ -289,7 +289,7 @@ test("imported on a server it does nothing, and calls say that there is no brows
   expect(stderr).toBe("");
   const { class: name, codes, globals } = JSON.parse(stdout) as { class: string; codes: Record<string, string>; globals: string[] };
   expect(name).toBe("ShopSlicer");
-  expect(Object.keys(codes)).toEqual(expect.arrayContaining(["load", "plan", "orient", "export", "exportStream", "printers"]));
+  expect(Object.keys(codes)).toEqual(expect.arrayContaining(["load", "plan", "orient", "export", "exportStream", "exportAll", "printers"]));
   expect([...new Set(Object.values(codes))]).toEqual(["no-browser"]);
   expect(globals).toEqual([]);
 });

@@ -66,7 +66,7 @@ class Schemas(unittest.TestCase):
 
     def test_plans_and_print_files(self) -> None:
         report = self.check("plan", self.planned("slice", self.wedge, "-o", self.print, "--max-thicknesses=2"))
-        self.assertGreater(report["layers"], 10)
+        self.assertGreater(report["plates"][0]["layers"], 10)
         with zipfile.ZipFile(self.print) as archive:
             self.check("manifest", archive.read("manifest.json").decode())
         own = self.folder / "own.json"
@@ -80,7 +80,7 @@ class Schemas(unittest.TestCase):
             self.check("plan", self.planned("plan", self.wedge, *options))
         self.check("plan", self.cusp("plan", self.wedge, f"--printer={own}", "--backend=cpu", "--json"))
         warned = self.check("plan", self.planned("plan", self.open))
-        self.assertGreater(len(warned["warnings"]), 0)
+        self.assertGreater(len(warned["plates"][0]["models"][0]["warnings"]), 0)
         inspection = self.check("inspect", self.cusp("inspect", self.print, "--json"))
         self.assertGreater(len(inspection["layer_values"]), 10)
         goo = self.folder / "wedge.goo"
@@ -111,10 +111,10 @@ class Schemas(unittest.TestCase):
         plate = ["--pixels=200x150", "--pitch=0.1", "--backend=cpu"]
         self.check("plate", self.cusp("plate", f"{self.wedge}:5", self.open, *plate, "-o", job, "--json"))
         plan.write_text(self.cusp("plan", job, "--json"))
-        report = self.check("plates", plan.read_text())
+        report = self.check("plan", plan.read_text())
         self.assertGreater(len(report["plates"]), 1)
-        self.check("verify-plates", self.cusp("verify", plan, job, "--json"))
-        self.check("verify-plates", self.cusp("verify", plan, job, *self.shop(), "--json"))
+        self.check("verify", self.cusp("verify", plan, job, "--json"))
+        self.check("verify", self.cusp("verify", plan, job, *self.shop(), "--json"))
 
     def test_studies(self) -> None:
         self.check("tradeoff", self.planned("tradeoff", self.wedge, "--points=5"))
@@ -148,7 +148,7 @@ class Schemas(unittest.TestCase):
         resin = self.folder / "resin.json"
         self.cusp("calibrate", "resin", "0.05=2.4", "0.1=3.5", "-o", resin)
         self.check("resin", resin.read_text())
-        options = json.loads(self.planned("plan", self.wedge))["options"]
+        options = json.loads(self.planned("plan", self.wedge))["plates"][0]["options"]
         self.check("settings", json.dumps({**options, "weights": "wedge.weights"}))
         with self.assertRaises(fastjsonschema.JsonSchemaException):
             self.check("settings", '{"layer_maxi_mm": 0.1}')

@@ -11,11 +11,11 @@ mod cusp;
 
 use std::io::{Cursor, Read};
 
+use cusp::Slicer;
 pub use cusp::{binary_stl, quiet, sample, solids};
 use cusp_slicer::Error;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner, Report, Snap};
-use cusp::Slicer;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{AutoDrain, Hollowing, Supporting};
 use cusp_slicer::resin::Resin;
