@@ -85,8 +85,17 @@ impl Job {
                 shadow_mm2: if is_shared { posed.shadow_mm2()? } else { 1.0 },
                 copies,
             });
-            let parts = turned.iter().map(PlannedModel::part_alone);
-            let planning = Planning::new(parts.collect(), &planned.layering);
+            let has_own_tolerance = turned.iter().any(|it| it.tolerance.is_some());
+            let [max_error, max_deviation_mm] = if is_shared || has_own_tolerance {
+                let parts = turned.iter().map(PlannedModel::part_alone);
+                let planning = Planning::new(parts.collect(), &planned.layering);
+                let plan = &planned.plan;
+                [planning.max_error(plan), planning.max_deviation_mm(plan)]
+            } else {
+                // Those of the plate are its own.
+                let findings = &planned.findings;
+                [findings.max_error, findings.max_deviation_mm]
+            };
             let mut warnings = loaded.file_warnings(&layout.shared);
             for warning in &sampled.warnings {
                 if !warnings.contains(warning) {
@@ -112,8 +121,8 @@ impl Job {
                 layers: layers_reaching(&planned.plan, sampled.height_mm),
                 resin_ml: sampled.survey.solid.volume_mm3 / 1e3,
                 print_time_s: 0.0,
-                max_error: planning.max_error(&planned.plan),
-                max_deviation_mm: planning.max_deviation_mm(&planned.plan),
+                max_error,
+                max_deviation_mm,
                 hollowed: prepared.hollowed.clone(),
                 supported: supports.map(|it| Supported::of(it, sampled.survey.support_mm3)),
                 warnings,
