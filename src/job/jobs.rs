@@ -31,7 +31,7 @@ use super::places::{placement, screen_of};
 pub struct Job {
     pub(super) models: Vec<LoadedModel>,
     pub(super) sampler: Sampler,
-    /// What may be taken, if that is bounded.
+    /// Limits of memory and time, if any.
     pub(super) memory: Option<Memory>,
     /// The models with their voids and supports, if they get some: before turns, in the order of models.
     pub(super) prepared: Vec<Option<Arc<Prepared>>>,
@@ -39,7 +39,7 @@ pub struct Job {
     pub(super) plates: Vec<Plate>,
 }
 
-/// Where copies stand, before anything is sampled.
+/// Places of copies, before anything is sampled.
 pub(super) struct Layout {
     pub resolved: Resolved,
     /// The options that the report repeats.
@@ -53,7 +53,7 @@ pub(super) struct Layout {
 }
 
 impl Layout {
-    /// What a model has of its own. Alone, it shares its options with none.
+    /// Options of a model of its own. A model alone has all options to itself.
     pub fn own(&self, options: &JobOptions, model: usize) -> ModelOptions {
         if self.is_alone {
             return ModelOptions::default();

@@ -89,7 +89,7 @@ impl LoadedModel {
         info
     }
 
-    /// What to know about the file, given these options.
+    /// Warnings about the file, given these options.
     pub(super) fn file_warnings(&self, options: &Options) -> Vec<Warning> {
         let objects = self.facts.skipped_objects;
         let skipped = (objects > 0).then_some(Warning::SkippedObjects { objects });

@@ -311,7 +311,7 @@ impl Options {
     }
 }
 
-/// How a model of a plate differs from the options of the job, and how often it is printed.
+/// Options of one model that differ from those of the job, and its number of copies.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -325,10 +325,10 @@ pub struct ModelOptions {
     /// Height to which the model is scaled uniformly. That of the options if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub height_mm: Option<f64>,
-    /// How this model is hollowed. As the options say if absent.
+    /// Hollowing of this model. That of the options if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hollow: Option<Hollowing>,
-    /// How this model is supported. As the options say if absent.
+    /// Supports of this model. Those of the options if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub supports: Option<Supporting>,
     /// Maximum error of a layer on this model, in the metric's unit. That of the options if absent.
@@ -354,7 +354,7 @@ impl Default for ModelOptions {
     }
 }
 
-/// Where a copy of a model stands.
+/// Place of a copy of a model.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -392,13 +392,13 @@ impl Placement {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct JobOptions {
-    /// What holds for all models; printer, layers and resin among it.
+    /// Options of all models; printer, layers and resin among them.
     pub options: Options,
     /// The models, in the order in which they were loaded.
     pub models: Vec<ModelOptions>,
-    /// How to arrange the copies.
+    /// Rules by which copies are arranged.
     pub arranging: Arranging,
-    /// Where each copy stands. If empty, copies are arranged.
+    /// Place of each copy. If empty, copies are arranged.
     pub placements: Vec<Placement>,
 }
 

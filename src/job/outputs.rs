@@ -1,4 +1,4 @@
-//! What is made of the plan of a plate: profiles, masks, findings and print files.
+//! Outputs of the plan of a plate: profiles, masks, findings and print files.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -274,7 +274,7 @@ impl Job {
 }
 
 impl Plate {
-    /// Whether the hits of all models are kept, so that their masks are.
+    /// Returns true if the hits of all models are kept, and with them their masks.
     fn are_all_held(&self) -> bool {
         let mut models = self.planned.models.iter();
         models.all(|model| model.sampled().bound().is_none())

@@ -416,7 +416,7 @@ pub struct Report {
     pub plate_count: usize,
     /// The models on this plate.
     pub models: Vec<ModelReport>,
-    /// Where each copy stands. A single copy that nobody has placed stands in the middle.
+    /// Place of each copy. A single copy without a place stands in the middle.
     pub placements: Vec<Placement>,
     /// Number of layers.
     pub layers: usize,

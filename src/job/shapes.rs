@@ -80,7 +80,7 @@ impl Job {
         wanted.collect()
     }
 
-    /// Whether the models of a plan are sampled as they will be.
+    /// Returns true if the models of a plan are sampled with the final options.
     pub(super) fn is_wanted(
         &self,
         options: &JobOptions,

@@ -48,7 +48,7 @@ pub struct ModelReport {
     /// The void that was left out of a copy, if it was hollowed.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hollowed: Option<Hollowed>,
-    /// What holds a copy, if it is supported.
+    /// Supports of a copy, if any.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub supported: Option<Supported>,
     /// Warnings about this model.
@@ -194,7 +194,7 @@ pub struct JobReport {
 }
 
 impl Report {
-    /// What `copies` prints of this plate need: each copy has its share of the time.
+    /// Items of a price for `copies` prints of this plate: each copy has its share of the time.
     pub fn price_items(&self, copies: usize) -> Vec<PriceItem> {
         let models = self.models.iter().map(|model| PriceItem {
             copies: model.copies.saturating_mul(copies),
@@ -206,7 +206,7 @@ impl Report {
 }
 
 impl JobReport {
-    /// What all copies on all plates need.
+    /// Items of a price for all copies on all plates.
     pub fn price_items(&self) -> Vec<PriceItem> {
         let plates = self.plates.iter();
         plates.flat_map(|plate| plate.price_items(1)).collect()

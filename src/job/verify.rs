@@ -335,7 +335,7 @@ fn in_short(value: &Value) -> String {
     }
 }
 
-/// What a submitted plan says of its plate. Unlike a report it says how copies stand, and nothing that follows from it.
+/// A plate of a submitted plan: its options and placements, without the results that follow from them.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
 pub struct ClaimedPlate {
     options: Options,

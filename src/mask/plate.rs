@@ -149,7 +149,7 @@ impl RunReader for Reader<'_> {
     }
 }
 
-/// How far the masks of a plate have been read.
+/// Position of a reader in the masks of a plate.
 pub struct PlateReadPlace(Vec<ReadPlace>);
 
 impl PlateReadPlace {

@@ -72,7 +72,7 @@ fn slab(folder: &TempDir) -> String {
     model(folder, "slab.stl", &binary_stl(&slab))
 }
 
-/// What a command prints as JSON; of a job of one plate, that plate with the rest.
+/// The JSON of a command; of a job of one plate, that plate with the rest.
 fn json(output: &Output) -> Value {
     of_only_plate(whole_json(output))
 }

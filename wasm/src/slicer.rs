@@ -102,7 +102,7 @@ pub fn defaults() -> JsValue {
     to_js(&Options::default().settled())
 }
 
-/// How copies are arranged if nothing else is asked for.
+/// Default rules by which copies are arranged.
 #[wasm_bindgen(unchecked_return_type = "Required<Arranging>")]
 pub fn default_arranging() -> JsValue {
     to_js(&Arranging::default())
@@ -376,7 +376,7 @@ impl Job {
         Ok(to_js(&self.job.model(model).map_err(throw)?.info()))
     }
 
-    /// Where copies stand when they are arranged.
+    /// Places of copies when they are arranged.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -390,7 +390,7 @@ impl Job {
         Ok(to_js(&self.job.arrange(&options).map_err(throw)?))
     }
 
-    /// What is wrong with the placements of the options: copies that extend beyond their plate, and copies that overlap.
+    /// Faults of the placements of the options: copies that extend beyond their plate, and copies that overlap.
     ///
     /// # Errors
     /// Throws a `CuspError`.
@@ -495,7 +495,7 @@ impl Job {
         self.job.mask(plate, layer).map_err(throw)
     }
 
-    /// What will fail when a plate of the last plan is printed, by these limits.
+    /// Findings on a plate of the last plan, by these limits.
     ///
     /// # Errors
     /// Throws a `CuspError` if there is no plan or no such plate, or if a limit is out of bounds.

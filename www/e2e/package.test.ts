@@ -137,7 +137,7 @@ interface Rendering {
   framework: string;
   /** Writes a property whose object is new each time. */
   property(name: string, literal: string): string;
-  /** What the component imports for that. */
+  /** Imports of the component. */
   imports?: string;
   files: Readonly<Record<string, string>>;
 }

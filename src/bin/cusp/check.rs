@@ -38,7 +38,7 @@ pub struct Checking {
     choices: Choices,
 }
 
-/// What `check` prints as JSON.
+/// The JSON of `check`.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Checked {

@@ -29,7 +29,7 @@ pub struct Contouring {
     /// Print one JSON object
     #[arg(long)]
     pub json: bool,
-    /// Where to write the contours: FILE.svg, or FILE.cli in the Common Layer Interface; of several plates each has its number in the name
+    /// File of the contours: FILE.svg, or FILE.cli in the Common Layer Interface; of several plates each has its number in the name
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,
     /// Leave out points of contours where the outline moves by at most this; 0 keeps all
@@ -41,7 +41,7 @@ pub struct Contouring {
     choices: Choices,
 }
 
-/// What `contours` prints as JSON.
+/// The JSON of `contours`.
 #[derive(Serialize)]
 #[cfg_attr(test, derive(schemars::JsonSchema))]
 pub struct Contoured {

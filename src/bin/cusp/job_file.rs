@@ -45,10 +45,10 @@ pub struct JobModel {
     /// Height to which the model is scaled.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub height_mm: Option<f64>,
-    /// How this model is hollowed.
+    /// Hollowing of this model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub hollow: Option<Hollowing>,
-    /// How this model is supported.
+    /// Supports of this model.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub supports: Option<Supporting>,
     /// Maximum error of a layer on this model.

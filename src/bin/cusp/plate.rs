@@ -1,4 +1,4 @@
-//! Where copies of models stand.
+//! Places of copies of models.
 
 use std::fmt::Write as _;
 use std::path::PathBuf;

@@ -83,7 +83,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
 }
 
 impl Slicing {
-    /// Whether the models stand on plates: those that are arranged, or those of a job file.
+    /// Returns true if the models stand on plates: those that are arranged, or those of a job file.
     fn is_plate(&self, command: &str) -> Result<bool, Failure> {
         let is_file = JobFile::of(&self.models)?.is_some();
         if !is_file && !self.arrange && self.places.are_given() {

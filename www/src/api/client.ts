@@ -42,7 +42,7 @@ export interface Planned extends Job {
   readonly report: JobReport;
 }
 
-/** What a worker holds: models in the order of its job, and a plan. */
+/** State of a worker: models in the order of its job, and a plan. */
 interface Held {
   models: { readonly id: number; weights: Weights }[];
   /** The plan that the core holds; null if there is none or it is unknown. */
@@ -111,7 +111,7 @@ export class Client {
     });
   }
 
-  /** What will fail when a plate of the last good plan is printed. */
+  /** Findings on a plate of the last good plan. */
   inspect(plate: number, limits: Limits, watch: Watch): Promise<PlatePrintability> {
     return this.#calls.run(watch, null, async (life, _, progress) => {
       await this.#restorePlan(life, silent);

@@ -52,11 +52,11 @@ export interface Model extends Versioned {
   /** The choices with which it was read. */
   reading: ReadOptions;
   info: MeshInfo;
-  /** How it differs from the options of the job, and its number of copies. */
+  /** Options that differ from those of the job, and its number of copies. */
   own: ModelOptions;
 }
 
-/** What to change of a model's own options; `undefined` leaves it to the job's. */
+/** Changes to a model's own options; `undefined` restores that of the job. */
 export type ModelChange = { [Name in keyof ModelOptions]?: ModelOptions[Name] | undefined };
 
 /**
@@ -75,7 +75,7 @@ export interface Plan extends Versioned, Profiled<Report>, Shells {
 /** A plan from the facets alone, for live updates while a model is being turned. */
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
-/** What will fail when a plate is printed, model by model, and the verdict. */
+/** Findings on a plate, model by model, and the verdict. */
 export interface Check extends Versioned, PlatePrintability {}
 
 /** The result of an orientation search. */
@@ -117,10 +117,10 @@ export interface PlateCall extends Watch {
   plate?: number | undefined;
 }
 
-/** How copies are arranged, or where they stand. */
+/** Rules by which copies are arranged, or their places. */
 export interface PlanCall extends Watch {
   arranging?: Arranging | undefined;
-  /** Where each copy stands: `model` is the place of its model in `models()`, from 0. If empty, copies are arranged; a single one stands in the middle. */
+  /** Place of each copy: `model` is the index of its model in `models()`, from 0. If empty, copies are arranged; a single one stands in the middle. */
   placements?: readonly Placement[] | undefined;
 }
 
@@ -137,16 +137,16 @@ export interface Slicer {
   remove(id: number): Promise<void>;
   /** The models in their order. */
   models(): Promise<readonly Model[]>;
-  /** Where copies stand when they are arranged: on the fewest plates, then lowest. */
+  /** Places of copies when they are arranged: on the fewest plates, then lowest. */
   arrange(options?: Options, arranging?: Arranging, call?: Watch): Promise<Placement[]>;
-  /** What is wrong with placements: copies that extend beyond their plate, and copies that overlap. */
+  /** Faults of placements: copies that extend beyond their plate, and copies that overlap. */
   problems(options: Options, placements: readonly Placement[], call?: Watch): Promise<ArrangeError[]>;
   /** Plans the layers of all plates. A change of options recomputes only what depends on it. */
   plan(options?: Options, call?: PlanCall): Promise<Plan>;
   /** The mask of a layer of the last plan, counted from 0. */
   mask(layer: number, call?: PlateCall): Promise<Mask>;
   /**
-   * What will fail when a plate of the last plan is printed, and where, on the masks and layers of the plan. `limits` are what a shop
+   * Findings on a plate of the last plan, with their places in its masks and layers. `limits` are what a shop
    * accepts; those left out have the defaults.
    */
   check(limits?: Limits, call?: PlateCall): Promise<Check>;
@@ -205,7 +205,7 @@ export interface Slicer {
    */
   calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
   /**
-   * What the last plan costs by the prices of a shop: docs/price.md defines the formula. Copies on plates have their shares of time. The
+   * Price of the last plan by the prices of a shop: docs/price.md defines the formula. Copies on plates have their shares of time. The
    * same code on a server computes the same (`cusp verify --prices`).
    */
   price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
@@ -466,7 +466,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
 /** A model with what callers do not see of it. */
 type Entry = Held & Model;
 
-/** What a page sees of a model: the weights are the slicer's. */
+/** The part of a model that a page sees, without its weights. */
 function seen({ schema, id, name, file, reading, info, own }: Entry): Model {
   return { schema, id, name, file, reading, info, own };
 }

@@ -9,7 +9,7 @@ export interface Ordered {
   finish?: string;
 }
 
-/** What `copies` prints of a plate need: each of its copies has its share of the time. */
+/** Items of a price for `copies` prints of a plate: each of its copies has its share of the time. */
 export function priceItems({ models }: Report, copies = 1): PriceItem[] {
   return models.map((model) => ({ copies: model.copies * copies, resin_ml: model.resin_ml, print_time_s: model.print_time_s }));
 }

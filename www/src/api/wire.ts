@@ -72,7 +72,7 @@ export interface Profiled<R> {
   profile: Float32Array;
 }
 
-/** What is added to models, in their order: for each, vertex positions for a copy that stands in the middle and is not turned, nine numbers a facet, mm from the plate. */
+/** Additions to models, in their order: for each, vertex positions for a copy that stands in the middle and is not turned, nine numbers a facet, mm from the plate. */
 export interface Shells {
   /** Supports; absent if no model has any. */
   supports?: Float32Array[];
@@ -132,7 +132,7 @@ export interface Opened {
   positions?: Float32Array;
 }
 
-/** What a worker does for the job that it holds. Models are counted from 0 in their order, and so are plates. */
+/** Calls of a worker. Models are counted from 0 in their order, and so are plates. */
 export interface SlicerWorker {
   /** Starts the core from its compiled module, or from its address. Returns the module for the next worker. */
   boot(module: WebAssembly.Module | string): Promise<WebAssembly.Module>;
@@ -149,7 +149,7 @@ export interface SlicerWorker {
   /** The best plans of a plate for `points` tolerances. */
   tradeoff(plate: number, options: JobOptions, points: number, progress: OnProgress): Promise<Tradeoff>;
   compare(plate: number, options: JobOptions, progress: OnProgress): Promise<Comparison>;
-  /** What will fail when a plate of the last plan is printed. */
+  /** Findings on a plate of the last plan. */
   inspect(plate: number, limits: Limits, progress: OnProgress): PlatePrintability;
   /** One bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(plate: number, layer: number): Uint8Array;

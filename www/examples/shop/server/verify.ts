@@ -6,7 +6,7 @@ import type { Limits, PlatePrintability, Price, Prices, Warning } from "cusp-sli
 import { Refusal, type RefusalCode } from "./refusal.js";
 import { FILES } from "./upload.js";
 
-/** What `cusp verify --json` prints of the plate of a valid plan, with its price. */
+/** JSON of `cusp verify --json` for the plate of a valid plan, with its price. */
 export interface Verified {
   layers: number;
   /** In the metric's unit, like the tolerance. */
@@ -31,7 +31,7 @@ export interface Verifier {
 /** Room for what it prints: up to a hundred findings of each kind, and the area of every layer. */
 const MOST_ANSWER_BYTES = 16e6;
 
-/** What `cusp verify --json` prints for a valid plan. */
+/** JSON of `cusp verify --json` for a valid plan. */
 export interface Answer {
   plates: readonly Omit<Verified, "price">[];
   price: Price;

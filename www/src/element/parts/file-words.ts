@@ -32,7 +32,7 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
   return words.together([words.kinds[format](extension), ...reading(), prepared(report, words)]);
 }
 
-/** Whether the models print as they are. */
+/** Returns true if the models print unchanged. */
 function prepared({ models }: Report, words: Language["texts"]["file"]): string {
   const isHollow = models.some(({ hollowed }) => hollowed !== undefined);
   const isSupported = models.some(({ supported }) => supported !== undefined);

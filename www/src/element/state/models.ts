@@ -32,7 +32,7 @@ export abstract class Models extends Preferences {
   place = 0;
   /** The models, of which {@link model} is the selected one. */
   readonly plate: Plate;
-  /** What can be asked of the slicer about the selected model. */
+  /** Calls of the slicer about the selected model. */
   readonly selected: ModelCalls;
 
   protected readonly host: Host;
@@ -323,7 +323,7 @@ export abstract class Models extends Preferences {
   }
 }
 
-/** What options say about a model alone. */
+/** The options of a model alone. */
 function ownOf({ rotation, height_mm, hollow, supports }: Options): Own {
   return { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }), ...(hollow && { hollow }), ...(supports && { supports }) };
 }

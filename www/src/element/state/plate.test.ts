@@ -13,7 +13,7 @@ let told: string[];
 /** The kinds of its undo steps. */
 let steps: string[];
 let plate: Plate;
-/** What the settings mean for a model in a pose. */
+/** Options that settings give for a model in a pose. */
 let owned: (pose: Pose) => Own | null;
 
 const POSE: Pose = { rotation: "", height: "", points: "", fill: "off", drains: "", drain: "auto" };

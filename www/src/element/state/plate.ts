@@ -10,7 +10,7 @@ import { isEqual } from "./plain.js";
 import { Sync } from "./sync.js";
 import { read } from "./typed.js";
 
-/** What the settings say about the selected model alone: its pose, and what is placed by hand on it. */
+/** Settings of the selected model alone: its pose, and what is placed by hand on it. */
 export type Pose = Pick<Settings, "rotation" | "height" | "points" | "fill" | "drains" | "drain">;
 
 /** The same as options, with voids and supports, which points and holes are part of. */

@@ -37,10 +37,10 @@ export function ownHeight(report: Report): number {
   return report.height_mm - liftOf(report);
 }
 
-/** How far supports lift the models of a plate, mm. */
+/** Height to which supports lift the models of a plate, mm. */
 const liftOf = ({ models }: Report): number => Math.max(0, ...models.map(({ supported }) => supported?.lift_mm ?? 0));
 
-/** What is added to a model. */
+/** Additions to a model. */
 interface Added {
   readonly supports?: Float32Array | undefined;
   readonly voids?: Float32Array | undefined;

@@ -4,7 +4,7 @@ import type { Source } from "../../api/source.js";
 import type { ModelOptions } from "../../api/wire.js";
 import type { Entry } from "./plate.js";
 
-/** What the slicer has of an entry. */
+/** State of an entry in the slicer. */
 interface There {
   readonly id: number;
   own: string;
@@ -116,7 +116,7 @@ export class Sync {
   }
 }
 
-/** What a model has of its own among these. The options of a single copy say its pose. */
+/** Options of a model of its own among these. Those of a single copy have its pose. */
 function ownOf({ copies, own }: Entry, entries: readonly Entry[]): ModelOptions {
   if (entries.length === 1 && copies === 1) return {};
   return { copies, ...own };
