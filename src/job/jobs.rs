@@ -23,6 +23,7 @@ use super::{
 use crate::arrange::{ArrangeError, Place, Screen};
 use crate::ldi::gpu::Gpu;
 use crate::plan::HeightRange;
+use crate::progress::silent;
 
 use super::places::{placement, screen_of};
 
@@ -37,6 +38,8 @@ pub struct Job {
     pub(super) prepared: Vec<Option<Arc<Prepared>>>,
     pub(super) shapes: Vec<Shape>,
     pub(super) plates: Vec<Plate>,
+    /// Set while a plate of several is planned again by itself.
+    pub(super) is_of_several: bool,
 }
 
 /// Places of copies, before anything is sampled.
@@ -208,6 +211,7 @@ impl Job {
             let clock = Instant::now();
             let (models, offsets) = self.standing(options, &layout, on_plate);
             let layering = layering_of(options, &layout, &models);
+            let upright = self.upright(options, &layout, &models)?;
             let known = last.iter_mut().chain(&mut self.plates);
             let kept = known
                 .map(|it| (&it.planned, &it.offsets, &mut it.seen))
@@ -233,6 +237,7 @@ impl Job {
             let report = self.report_of_plate(options, &layout, number, &planned, &timings)?;
             self.plates.push(Plate {
                 offsets,
+                upright,
                 planned,
                 output: layout.resolved.output.clone(),
                 report,
@@ -254,7 +259,8 @@ impl Job {
         progress: &mut StageProgress<'_>,
     ) -> Result<Layout, Error> {
         options.check()?;
-        let is_alone = self.models.len() == 1
+        let is_alone = !self.is_of_several
+            && self.models.len() == 1
             && options.of_model(0).copies == 1
             && matches!(&options.placements[..], [] | [Placement::MIDDLE]);
         let shared = if is_alone {
@@ -341,6 +347,33 @@ impl Job {
         };
         let output = &layout.resolved.output;
         Ok(report_of(planned, output, origin, timings.clone()))
+    }
+
+    /// Each model of a plate before turns.
+    fn upright(
+        &self,
+        options: &JobOptions,
+        layout: &Layout,
+        models: &[PlannedModel],
+    ) -> Result<Vec<(usize, Arc<Prepared>)>, Error> {
+        let of_model = |turned: &[PlannedModel]| {
+            let model = turned[0].model;
+            let upright = turned.iter().find(|it| it.turns == 0);
+            let prepared = match (upright, &self.prepared[model]) {
+                (Some(upright), _) => Arc::clone(&upright.sampled().prepared),
+                (None, Some(prepared)) => Arc::clone(prepared),
+                (None, None) => {
+                    let sampling = self.sampling_of(options, &layout.resolved, model, 0);
+                    let (mesh, mut timings) = (&self.models[model].mesh, Timings::default());
+                    let prepared =
+                        Prepared::new(mesh, &sampling, None, None, &mut timings, &mut silent);
+                    Arc::new(prepared?)
+                }
+            };
+            Ok((model, prepared))
+        };
+        let models = models.chunk_by(|a, b| a.model == b.model);
+        models.map(of_model).collect()
     }
 
     /// The report of the last plan.

@@ -30,6 +30,8 @@ pub(super) struct Plate {
     pub planned: Arc<Planned>,
     /// For each model of the plan, where its copies stand as seen from above.
     pub offsets: Vec<Vec<[i32; 2]>>,
+    /// Each model before turns: on the plate, with its voids and supports.
+    pub upright: Vec<(usize, Arc<Prepared>)>,
     pub output: Output,
     pub report: Report,
     /// The masks seen from above, kept for later calls, and cursors at the last layer that was read.
@@ -57,15 +59,10 @@ impl Job {
     /// A model of the last plan before turns: on the plate, with its voids and supports.
     fn prepared(&self, model: usize) -> Result<Option<&Prepared>, Error> {
         self.check_model(model)?;
-        let on_plates = self.plates.iter().flat_map(|plate| &plate.planned.models);
-        let mut copies = on_plates.filter(|it| it.model == model);
-        let upright = copies.clone().find(|it| it.turns == 0);
-        Ok(match upright {
-            Some(upright) => Some(&*upright.sampled().prepared),
-            None => copies
-                .next()
-                .and_then(|_| self.prepared.get(model)?.as_deref()),
-        })
+        let mut upright = self.plates.iter().flat_map(|plate| &plate.upright);
+        Ok(upright
+            .find(|(of, _)| *of == model)
+            .map(|(_, prepared)| &**prepared))
     }
 
     /// The mesh of a model that the last plan was made for: on the plate, with its voids and supports. `None` without a plan.

@@ -154,6 +154,10 @@ impl Claim {
 
     fn of(report: Value, models: &[&ModelFile]) -> Result<Self, VerifyError> {
         let plate = ClaimedPlate::deserialize(&report).map_err(not_a_plan)?;
+        if plate.plate >= plate.plate_count {
+            let key = "plate".to_owned();
+            return Err(VerifyError::Contradicts { key });
+        }
         for (claimed, model) in plate.files() {
             match models.get(model) {
                 None => {
@@ -337,7 +341,7 @@ fn in_short(value: &Value) -> String {
 
 /// A plate of a submitted plan: its options and placements, without the results that follow from them.
 #[derive(Debug, Clone, PartialEq, Deserialize)]
-pub struct ClaimedPlate {
+struct ClaimedPlate {
     options: Options,
     plate: usize,
     plate_count: usize,
@@ -396,7 +400,11 @@ impl Job {
         claimed: &ClaimedPlate,
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
-        self.plan(&claimed.job(), progress).await?;
+        // Alone on a plate of several, a model still has options of its own.
+        self.is_of_several = claimed.plate_count > 1;
+        let planned = self.plan(&claimed.job(), progress).await;
+        self.is_of_several = false;
+        planned?;
         let report = &mut self.plate_mut(0)?.report;
         (report.plate, report.plate_count) = (claimed.plate, claimed.plate_count);
         for place in &mut report.placements {

@@ -158,6 +158,40 @@ fn several_plates_are_numbered_print_files() {
 }
 
 #[test]
+fn a_mesh_is_exported_as_it_stands_before_turns_and_of_one_model_alone() {
+    let folder = TempDir::new().unwrap();
+    let bar = solids::cuboid(glam::Vec3::new(20.0, 4.0, 2.0));
+    let bar = model(&folder, "bar.stl", &binary_stl(&bar));
+    let (job, mesh) = (path_in(&folder, "job.json"), path_in(&folder, "mesh.stl"));
+    let turned = r#"{ "models": [{ "file": "bar.stl" }], "placements": [{ "model": 0, "x_mm": 0, "y_mm": 0, "turn_deg": 90 }] }"#;
+    std::fs::write(&job, turned).unwrap();
+    let planned = small(&["plan", &job, "--export", &mesh]);
+    assert!(
+        planned.status.success(),
+        "{}",
+        String::from_utf8_lossy(&planned.stderr)
+    );
+    let info = parsed(&cusp(&["info", &mesh, "--json"]));
+    let size: Vec<f64> = serde_json::from_value(info["size_mm"].clone()).unwrap();
+    assert!(
+        (size[0] - 20.0).abs() < 1e-3 && (size[1] - 4.0).abs() < 1e-3,
+        "{size:?}"
+    );
+    let several = r#"{ "models": [{ "file": "bar.stl" }, { "file": "bar.stl" }] }"#;
+    std::fs::write(&job, several).unwrap();
+    assert_fails(
+        &small(&["plan", &job, "--export", &mesh]),
+        2,
+        "of one model",
+    );
+    assert_fails(
+        &small(&["plan", &bar, &bar, "--export", &mesh]),
+        2,
+        "of one model",
+    );
+}
+
+#[test]
 fn what_cannot_be_a_plate_is_said() {
     let folder = TempDir::new().unwrap();
     let ball = sphere(&folder);
@@ -194,6 +228,10 @@ fn what_cannot_be_a_plate_is_said() {
         ("{\"models\": [{\"file\": \"none.stl\"}]}", "none.stl"),
         ("{\"models\": [{\"fiel\": \"ball.stl\"}]}", "fiel"),
         ("{\"models\": []}", "no model"),
+        (
+            "{\"models\": [{\"file\": \"ball.stl\"}, {\"file\": \"ball.stl\"}], \"placements\": [{\"model\": 11, \"x_mm\": 0, \"y_mm\": 0}]}",
+            "no model 12",
+        ),
     ] {
         std::fs::write(&job, text).unwrap();
         assert_fails(&small(&["plan", &job]), 1, words);

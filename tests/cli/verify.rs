@@ -268,3 +268,47 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
     std::fs::write(path("column.stl"), other).unwrap();
     assert_fails(&cusp(&["verify", &plan, &job]), 1, "another model");
 }
+
+#[test]
+fn a_model_alone_on_each_of_several_plates_keeps_options_of_its_own() {
+    let folder = TempDir::new().unwrap();
+    let path = |name: &str| folder.path().join(name).display().to_string();
+    let wide = solids::cuboid(Vec3::new(16.0, 9.0, 3.0));
+    model(&folder, "wide.stl", &binary_stl(&wide));
+    let (job, plan) = (path("job.json"), path("plan.json"));
+    let written = r#"{
+        "models": [{ "file": "wide.stl", "copies": 2, "tolerance": 0.03, "height_mm": 4 }],
+        "options": { "pixels": [240, 140], "pitch_mm": 0.1, "backend": "cpu" }
+    }"#;
+    std::fs::write(&job, written).unwrap();
+    let planned = cusp(&["plan", &job, "--json"]);
+    let whole = whole_json(&planned);
+    for plate in 0..2 {
+        let placements = whole["plates"][plate]["placements"].as_array().unwrap();
+        assert_eq!(placements.len(), 1);
+        assert_eq!(placements[0]["x_mm"].as_f64().unwrap_or(0.0), 0.0);
+        assert_eq!(
+            whole["plates"][plate]["models"][0]["options"]["tolerance"],
+            0.03
+        );
+    }
+    std::fs::write(&plan, &planned.stdout).unwrap();
+    let verified = cusp(&["verify", &plan, &job, "--json"]);
+    assert!(
+        verified.status.success(),
+        "{}",
+        String::from_utf8_lossy(&verified.stderr)
+    );
+    // One plate's plan tells that it is one of several, by a number that there can be.
+    let mut second = whole["plates"][1].clone();
+    second["schema"] = whole["schema"].clone();
+    std::fs::write(&plan, second.to_string()).unwrap();
+    assert!(cusp(&["verify", &plan, &job]).status.success());
+    second["plate"] = 2.into();
+    std::fs::write(&plan, second.to_string()).unwrap();
+    assert_fails(
+        &cusp(&["verify", &plan, &job]),
+        1,
+        "plate does not go with the rest",
+    );
+}

@@ -135,13 +135,18 @@ impl LoadedJob {
 
     /// A message with the files of models in place of their numbers.
     fn named(&self, message: &str) -> String {
-        let names = self.paths.iter().enumerate();
-        // From the last, so that model 12 is not model 1 with a 2.
-        names
-            .rev()
-            .fold(message.to_owned(), |message, (model, path)| {
-                message.replace(&format!("model {}", model + 1), &path.display().to_string())
-            })
+        let mut parts = message.split("model ");
+        let first = parts.next().unwrap_or_default().to_owned();
+        let named = parts.map(|part| {
+            let rest = part.trim_start_matches(|it: char| it.is_ascii_digit());
+            let number: Option<usize> = part[..part.len() - rest.len()].parse().ok();
+            let model = number.and_then(|number| number.checked_sub(1));
+            match model.and_then(|model| self.paths.get(model)) {
+                Some(path) => format!("{}{rest}", path.display()),
+                None => format!("model {part}"),
+            }
+        });
+        std::iter::once(first).chain(named).collect()
     }
 
     pub fn name(&self, model: usize) -> std::path::Display<'_> {

@@ -27,7 +27,9 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     keep_within(&slicing.budget);
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
-    check_meshes("slice", slicing);
+    if slicing.models.len() > 1 {
+        slicing.check_meshes("slice");
+    }
     let is_plate = slicing.is_plate("slice")?;
     if !is_plate && is_folder(output) {
         return slice_all(slicing, output);
@@ -69,7 +71,9 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     keep_within(&slicing.budget);
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
-    check_meshes("plan", slicing);
+    if slicing.models.len() > 1 {
+        slicing.check_meshes("plan");
+    }
     if !slicing.is_plate("plan")? && slicing.models.len() > 1 {
         return plan_all(slicing);
     }
@@ -93,9 +97,22 @@ impl Slicing {
         Ok(is_file || self.arrange)
     }
 
+    /// Refuses files of one mesh.
+    fn check_meshes(&self, command: &str) {
+        for (file, option) in [(&self.export, "--export"), (&self.plugs, "--plugs")] {
+            if file.is_some() {
+                let message = format!("{option} is of one model: name one");
+                wrong_usage(command, &message);
+            }
+        }
+    }
+
     fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
         let (places, choices) = (&self.places, &self.choices);
         let mut job = LoadedJob::read(command, &self.models, places, choices, &self.budget)?;
+        if job.paths.len() > 1 {
+            self.check_meshes(command);
+        }
         if self.arrange {
             job.arrange()?;
         }
@@ -134,18 +151,6 @@ fn files_of(job: &LoadedJob, output: &Path, plates: usize) -> Result<Vec<PathBuf
 }
 
 /// Meshes are written of one model.
-fn check_meshes(command: &str, slicing: &Slicing) {
-    if slicing.models.len() < 2 {
-        return;
-    }
-    for (file, option) in [(&slicing.export, "--export"), (&slicing.plugs, "--plugs")] {
-        if file.is_some() {
-            let message = format!("{option} is of one model: name one");
-            wrong_usage(command, &message);
-        }
-    }
-}
-
 fn write_meshes(slicing: &Slicing, job: &LoadedJob) -> Result<(), Failure> {
     if let Some(file) = &slicing.export {
         export(&job.job, file)?;
