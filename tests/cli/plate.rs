@@ -229,7 +229,7 @@ fn what_cannot_be_a_plate_is_said() {
         ("{\"models\": [{\"fiel\": \"ball.stl\"}]}", "fiel"),
         ("{\"models\": []}", "no model"),
         (
-            "{\"models\": [{\"file\": \"ball.stl\"}, {\"file\": \"ball.stl\"}], \"placements\": [{\"model\": 11, \"x_mm\": 0, \"y_mm\": 0}]}",
+            r#"{"models": [{"file": "ball.stl"}, {"file": "ball.stl"}], "placements": [{"model": 0, "x_mm": 0, "y_mm": 0}, {"model": 1, "x_mm": 9, "y_mm": 0}, {"model": 11, "x_mm": 9, "y_mm": 9}]}"#,
             "no model 12",
         ),
     ] {

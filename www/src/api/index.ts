@@ -31,7 +31,7 @@ import type { Ordered } from "./price.js";
 import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
-import type { ArrangeError, Arranging, Candidate, Comparison, JobOptions, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
+import type { ArrangeError, Arranging, Candidate, Comparison, JobOptions, JobReport, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -374,15 +374,21 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return printFile(`${stemOfPlate(plate, of.report.plates, of.models)}-cusp`, blob, reportOf(of.report.plates, plate));
     },
     exportAll(call = {}) {
+      const gone = new AbortController();
+      const signal = call.signal === undefined ? gone.signal : AbortSignal.any([call.signal, gone.signal]);
       let plate = 0;
+      let first: JobReport | null = null;
       return new ReadableStream<PrintFile>(
         {
           async pull(controller) {
-            const { blob, of } = await main.archive(plate, null, call);
+            const { blob, of } = await main.archive(plate, null, { ...call, signal });
+            first ??= of.report;
+            if (of.report !== first) throw new SlicerError("no-plan", "there is another plan; export all of its plates", null);
             const { plates } = of.report;
             controller.enqueue(printFile(`${stemOfPlate(plate, plates, of.models)}-cusp`, blob, reportOf(plates, plate)));
             if (++plate >= plates.length) controller.close();
           },
+          cancel: () => gone.abort(),
         },
         { highWaterMark: 0 },
       );

@@ -184,6 +184,21 @@ test("a stream of all print files makes each when it is read", async () => {
   expect((await files.read()).done).toBe(true);
 });
 
+test("a stream of all print files ends where there is another plan, and when it is cancelled", async () => {
+  await slicer.add(file("cup"), { copies: 3 });
+  await slicer.plan({ tolerance: 1 });
+  const files = slicer.exportAll().getReader();
+  await files.read();
+  await slicer.plan({ tolerance: 2 });
+  await expect(files.read()).rejects.toMatchObject({ code: "no-plan" });
+  const others = slicer.exportAll();
+  const abort = new AbortController();
+  const given = slicer.exportAll({ signal: abort.signal }).getReader();
+  await others.cancel();
+  abort.abort();
+  await expect(given.read()).rejects.toMatchObject({ name: "AbortError" });
+});
+
 test("a curve is that of a plate, for the options that are given, and the last plan stays", async () => {
   await slicer.add(file("cup"), { copies: 3 });
   await slicer.plan({ tolerance: 1 });

@@ -15,13 +15,13 @@ export interface Checked {
 type Place = readonly [number, number, number];
 
 /** The models of a check, with their findings at their places on the plate. */
-export function checkedOf(check: Check, { placements: all }: Report): readonly Checked[] {
-  if (all.length === 1) return check.models.map((found) => ({ model: null, copies_mm: [[0, 0]], found }));
+export function checkedOf(check: Check, { plate_count, placements: all }: Report): readonly Checked[] {
+  const isAlone = plate_count === 1 && all.length === 1;
   return check.models.map(({ model, turn_deg, findings, counts }) => {
     const placements = all.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
     const copies_mm = placements.map((it) => [(it.x_mm ?? 0) - x_mm, (it.y_mm ?? 0) - y_mm] as const);
-    return { model, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
+    return { model: isAlone ? null : model, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
   });
 }
 

@@ -137,6 +137,18 @@ test("on a plate each model is checked, its findings are where its first copy st
   expect(session.checks.marks).toEqual([]);
 });
 
+test("a copy that is alone on one of several plates has its findings where it stands, and its model's name", async () => {
+  await planned();
+  session.change({ tolerances: { ...session.settings.tolerances, volume: "20" } });
+  await settle();
+  const plan = planOf(8);
+  slicer.last.resolve({ ...plan, report: { ...plan.report, plate: 1, plate_count: 2, placements: [{ model: 0, plate: 1, x_mm: 30, y_mm: 0 }] } });
+  await settle();
+  await open();
+  await answer(checkOf("cup"));
+  expect(session.checks.models).toMatchObject([{ model: 0, copies_mm: [[0, 0]], found: { findings: [{ at_mm: [30, 0, 1] }] } }]);
+});
+
 test("a failure is the panel's alone, and stays until there is another plan", async () => {
   await planned();
   await open();

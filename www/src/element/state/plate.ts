@@ -385,8 +385,8 @@ export class Plate {
   /** The curve of the plate shown. */
   async tradeoff(options: Options = {}, points?: number, watch: Watch = {}): Promise<Tradeoff & { schema: typeof SCHEMA }> {
     if (this.planned === null) return this.#slicer.tradeoff(options, points, watch);
-    const { number: plate, placements } = this;
-    return this.#slicer.tradeoff(sharedOf(options), points, { ...watch, plate, placements });
+    const { number: plate, placements, arranging } = this;
+    return this.#slicer.tradeoff(sharedOf(options), points, { ...watch, plate, placements, arranging });
   }
 
   /** Asks what is wrong with the places, one call at a time; the newest counts. */

@@ -57,8 +57,15 @@ export class Sync {
   async paint(key: number, weights: Float32Array | null, watch: Watch): Promise<void> {
     const there = this.#there.get(key);
     if (there === undefined) return;
+    const before = there.weights;
     there.weights = weights;
-    await this.#slicer.setWeights(weights, { ...watch, model: there.id });
+    try {
+      await this.#slicer.setWeights(weights, { ...watch, model: there.id });
+    } catch (error) {
+      // Those of a later call stay.
+      if (there.weights === weights) there.weights = before;
+      throw error;
+    }
   }
 
   #hasChanged(entry: Entry, entries: readonly Entry[]): boolean {
