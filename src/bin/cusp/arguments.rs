@@ -3,6 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::{Args, ValueEnum};
+use cusp_slicer::arrange::Arranging;
 use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
@@ -10,14 +11,11 @@ use cusp_slicer::model::ModelUnit;
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportProfile, SupportStrength, Supporting};
-use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::profile::{Metric, Source};
-use cusp_slicer::resin::Resin;
 
 use crate::budget::Budget;
 use crate::config::{self, SettingsFile};
-use crate::files::{Failure, Reading, WeightsFile, read_json};
-use crate::plate::Places;
+use crate::files::{Failure, Reading, WeightsFile, printer_choice, read_json, read_resin};
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
     DrainArg, PrinterName, antialias, drain, height_range, length, mesh_file, not_negative, pitch,
@@ -60,6 +58,38 @@ pub struct Studying {
     pub json: bool,
     #[command(flatten)]
     pub choices: Choices,
+}
+
+/// Rules by which models are arranged.
+#[derive(Default, Args)]
+pub struct Places {
+    /// Copies of each model that names no number of its own, as MODEL:3 does
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Plate")]
+    pub copies: Option<u32>,
+    /// Least distance between copies [default: 2]
+    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Plate")]
+    spacing: Option<f64>,
+    /// Turn copies about z in steps of this where that saves a plate: a multiple of 15 that divides 360; 0 turns none [default: 45]
+    #[arg(long, value_name = "DEGREES", help_heading = "Plate")]
+    turn: Option<u32>,
+}
+
+impl Places {
+    pub fn are_given(&self) -> bool {
+        self.copies.is_some() || self.spacing.is_some() || self.turn.is_some()
+    }
+
+    /// Copies of a model that names no number of its own.
+    pub fn copies(&self) -> usize {
+        self.copies.map_or(1, |copies| copies as usize)
+    }
+
+    pub fn arranging(&self, arranging: Arranging) -> Arranging {
+        Arranging {
+            spacing_mm: self.spacing.unwrap_or(arranging.spacing_mm),
+            turn_deg: self.turn.unwrap_or(arranging.turn_deg),
+        }
+    }
 }
 
 /// The printer and the resin.
@@ -128,14 +158,6 @@ fn put<T>(place: &mut Option<T>, given: Option<T>) {
     if given.is_some() {
         *place = given;
     }
-}
-
-/// The resin of a file, or the default.
-pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
-    let Some(path) = path else {
-        return Ok(Resin::default());
-    };
-    read_json(path)
 }
 
 /// Choices that a model file leaves to its reader.
@@ -531,15 +553,6 @@ impl Choices {
         put(&mut options.layer_min_mm, self.layer_min);
         put(&mut options.layer_max_mm, self.layer_max);
     }
-}
-
-/// A known printer, or that of a JSON file.
-pub fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
-    let path = Path::new(printer);
-    if path.extension().is_none_or(|extension| extension != "json") {
-        return Ok(PrinterChoice::Named(printer.to_owned()));
-    }
-    Ok(PrinterChoice::Own(read_json(path)?))
 }
 
 /// The help of `--tolerance`, with the library's defaults.

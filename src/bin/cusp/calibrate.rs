@@ -7,8 +7,8 @@ use clap::Subcommand;
 use cusp_slicer::job::Calibration;
 use serde::Serialize;
 
-use crate::arguments::{Target, read_resin};
-use crate::files::{Failure, Output};
+use crate::arguments::Target;
+use crate::files::{Failure, Output, read_resin};
 use crate::terminal::{Bar, duration, print, print_json};
 use crate::usage::check_json;
 use crate::values::{length, measured, positive};

@@ -8,34 +8,23 @@ use cusp_slicer::inspect::{Finding, Limits, Printability, Severity, Verdict};
 use cusp_slicer::job::{PlatePrintability, Report};
 use serde::Serialize;
 
-use crate::arguments::Choices;
-use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::files::{Failure, in_file, read_json};
-use crate::job::LoadedJob;
-use crate::plate::Places;
+use crate::job::Printing;
 use crate::terminal::{Bar, print, print_json};
 use crate::watch::stop_on_interrupt;
 
 /// Models, and what a shop accepts.
 #[derive(Args)]
 pub struct Checking {
-    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file
-    #[arg(required = true, value_name = "MODEL[:N]")]
-    models: Vec<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printing: Printing,
     /// Thresholds and severities of a shop, as a JSON file
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,
     /// Findings of a kind to show, of which the largest come first
     #[arg(long, value_name = "N", default_value_t = 5)]
     show: usize,
-    #[command(flatten)]
-    places: Places,
-    #[command(flatten)]
-    choices: Choices,
 }
 
 /// The JSON of `check`.
@@ -64,18 +53,11 @@ struct CheckedPlate {
 
 /// Checks each model of each plate.
 pub fn check(checking: &Checking) -> Result<(), Failure> {
-    let Checking {
-        models,
-        show,
-        places,
-        choices,
-        ..
-    } = checking;
-    choices.check("check");
-    check_inputs("check", models);
+    let Checking { printing, show, .. } = checking;
+    printing.check("check");
     let limits = checking.limits.as_deref().map(read_limits).transpose()?;
     let limits = limits.unwrap_or_default();
-    let mut job = LoadedJob::read("check", models, places, choices, &Budget::default())?;
+    let mut job = printing.read("check", &Budget::default())?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |stage, fraction| bar.report(stage, fraction);
@@ -104,7 +86,7 @@ pub fn check(checking: &Checking) -> Result<(), Failure> {
     job.warn(&report);
     let verdicts = plates.iter().map(|plate| plate.printability.verdict);
     let verdict = verdicts.max().unwrap_or(Verdict::Ok);
-    if checking.json {
+    if printing.json {
         print_json(&Checked {
             verdict,
             plates,

@@ -10,8 +10,7 @@ use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use crate::arguments::{printer_choice, read_resin};
-use crate::files::{Failure, in_file};
+use crate::files::{Failure, in_file, printer_choice, read_resin};
 
 /// What a file of settings says; the rest has its defaults.
 #[derive(Default)]

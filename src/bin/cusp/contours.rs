@@ -10,12 +10,9 @@ use cusp_slicer::contour::{Contours, ContoursReport, Copies, Heading, Lattice, L
 use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
 
-use crate::arguments::Choices;
-use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::files::{Failure, Output, Writer, numbered};
-use crate::job::LoadedJob;
-use crate::plate::Places;
+use crate::job::{LoadedJob, Printing};
 use crate::terminal::{Bar, print, print_json};
 use crate::values::not_negative;
 use crate::watch::stop_on_interrupt;
@@ -23,22 +20,14 @@ use crate::watch::stop_on_interrupt;
 /// Models, how to slice them, and where to write their contours.
 #[derive(Args)]
 pub struct Contouring {
-    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file
-    #[arg(required = true, value_name = "MODEL[:N]")]
-    models: Vec<PathBuf>,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
+    #[command(flatten)]
+    pub printing: Printing,
     /// File of the contours: FILE.svg, or FILE.cli in the Common Layer Interface; of several plates each has its number in the name
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,
     /// Leave out points of contours where the outline moves by at most this; 0 keeps all
     #[arg(long, value_name = "MM", default_value_t = 0.005, value_parser = not_negative, help_heading = "Contours")]
     simplify: f64,
-    #[command(flatten)]
-    places: Places,
-    #[command(flatten)]
-    choices: Choices,
 }
 
 /// The JSON of `contours`.
@@ -67,17 +56,12 @@ fn is_svg(path: &Path) -> Option<bool> {
 /// Writes the contours of each plate.
 pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let Contouring {
-        models,
-        output,
-        places,
-        choices,
-        ..
+        printing, output, ..
     } = contouring;
-    choices.check("contours");
-    check_inputs("contours", models);
+    printing.check("contours");
     // What cannot be written is said before anything is planned.
-    let alone = Output::new(output, models.first().map(|it| &**it), "model")?;
-    let mut job = LoadedJob::read("contours", models, places, choices, &Budget::default())?;
+    let alone = Output::new(output, printing.first(), "model")?;
+    let mut job = printing.read("contours", &Budget::default())?;
     stop_on_interrupt();
     let bar = Bar::new();
     let plan = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
@@ -95,7 +79,7 @@ pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
     let plates = plates.collect::<Result<Vec<_>, _>>()?;
     drop(bar);
     job.warn(&plan);
-    if contouring.json {
+    if printing.json {
         return Ok(print_json(&Contoured { plates })?);
     }
     let texts = plates.iter().zip(&files).map(|(report, file)| {

@@ -10,8 +10,7 @@ use cusp_slicer::job::{Conversion, Loss, Target};
 use cusp_slicer::printer::format_of;
 use serde::Serialize;
 
-use crate::arguments::{printer_choice, read_resin};
-use crate::files::{Failure, Output, in_file, read};
+use crate::files::{Failure, Output, in_file, printer_choice, read, read_resin};
 use crate::terminal::{Bar, duration, print, print_json, warn};
 use crate::usage::check_json;
 use crate::values::PrinterName;

@@ -11,7 +11,9 @@ use cusp_slicer::job::LoadedModel;
 use cusp_slicer::misnamed::with_nearest;
 use cusp_slicer::model::read::{HEAD_BYTES, ReadOptions, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
+use cusp_slicer::printer::PrinterChoice;
 use cusp_slicer::progress::Cancelled;
+use cusp_slicer::resin::Resin;
 use serde::Serialize;
 use serde::de::DeserializeOwned;
 use serde_json::Value;
@@ -171,6 +173,23 @@ pub fn in_file(path: &Path, error: &dyn Display) -> String {
         return format!("standard input: {error}");
     }
     format!("{}: {error}", path.display())
+}
+
+/// The resin of a file, or the default.
+pub fn read_resin(path: Option<&Path>) -> Result<Resin, Failure> {
+    let Some(path) = path else {
+        return Ok(Resin::default());
+    };
+    read_json(path)
+}
+
+/// A known printer, or that of a JSON file.
+pub fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
+    let path = Path::new(printer);
+    if path.extension().is_none_or(|extension| extension != "json") {
+        return Ok(PrinterChoice::Named(printer.to_owned()));
+    }
+    Ok(PrinterChoice::Own(read_json(path)?))
 }
 
 /// Whether this stands for standard input or output.

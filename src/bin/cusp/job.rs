@@ -2,16 +2,50 @@
 
 use std::path::{Path, PathBuf};
 
+use clap::Args;
 use cusp_slicer::job::{Backend, Job, JobOptions, JobReport, ModelOptions, StageProgress};
 use cusp_slicer::warning::Warning;
 
-use crate::arguments::{Choices, Settings};
+use crate::arguments::{Choices, Places, Settings};
+use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::files::Failure;
 use crate::job_file::{JobFile, JobModel, LoadedModels, with_copies};
-use crate::plate::Places;
 use crate::terminal::{open_gpu, say};
 use crate::usage::wrong_usage;
+
+/// Models with their copies, and how they would be printed.
+#[derive(Args)]
+pub struct Printing {
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file of `cusp plate`
+    #[arg(required = true, value_name = "MODEL[:N]")]
+    models: Vec<PathBuf>,
+    /// Print one JSON object
+    #[arg(long)]
+    pub json: bool,
+    #[command(flatten)]
+    places: Places,
+    #[command(flatten)]
+    choices: Choices,
+}
+
+impl Printing {
+    /// The first model, or the job file.
+    pub fn first(&self) -> Option<&Path> {
+        self.models.first().map(PathBuf::as_path)
+    }
+
+    /// Ends the program with a message if the choices or the names of files contradict each other.
+    pub fn check(&self, command: &str) {
+        self.choices.check(command);
+        check_inputs(command, &self.models);
+    }
+
+    /// Reads the models.
+    pub fn read(&self, command: &str, budget: &Budget) -> Result<LoadedJob, Failure> {
+        LoadedJob::read(command, &self.models, &self.places, &self.choices, budget)
+    }
+}
 
 /// A job whose models are read.
 pub struct LoadedJob {
@@ -172,11 +206,5 @@ impl LoadedJob {
             [_] => say(&format!("warning: {warning}")),
             _ => say(&format!("warning: {}: {warning}", self.name(model))),
         }
-    }
-}
-
-impl Places {
-    fn copies(&self) -> usize {
-        self.copies.map_or(1, |copies| copies as usize)
     }
 }

@@ -4,43 +4,14 @@ use std::fmt::Write as _;
 use std::path::PathBuf;
 
 use clap::Args;
-use cusp_slicer::arrange::Arranging;
 
-use crate::arguments::Choices;
+use crate::arguments::{Choices, Places};
 use crate::budget::Budget;
 use crate::files::{Failure, Output};
 use crate::job::LoadedJob;
 use crate::job_file::{JobFile, JobModel, path_from};
 use crate::terminal::{print, print_json};
-use crate::values::not_negative;
 use crate::watch::keep_within;
-
-/// How models are arranged.
-#[derive(Default, Args)]
-pub struct Places {
-    /// Copies of each model that names no number of its own, as MODEL:3 does
-    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Plate")]
-    pub copies: Option<u32>,
-    /// Least distance between copies [default: 2]
-    #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Plate")]
-    spacing: Option<f64>,
-    /// Turn copies about z in steps of this where that saves a plate: a multiple of 15 that divides 360; 0 turns none [default: 45]
-    #[arg(long, value_name = "DEGREES", help_heading = "Plate")]
-    turn: Option<u32>,
-}
-
-impl Places {
-    pub fn are_given(&self) -> bool {
-        self.copies.is_some() || self.spacing.is_some() || self.turn.is_some()
-    }
-
-    pub fn arranging(&self, arranging: Arranging) -> Arranging {
-        Arranging {
-            spacing_mm: self.spacing.unwrap_or(arranging.spacing_mm),
-            turn_deg: self.turn.unwrap_or(arranging.turn_deg),
-        }
-    }
-}
 
 /// Models to arrange.
 #[derive(Args)]

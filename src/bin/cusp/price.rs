@@ -7,36 +7,25 @@ use clap::Args;
 use cusp_slicer::price::{Price, PriceItem, Prices};
 use serde::Serialize;
 
-use crate::arguments::Choices;
-use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::files::{Failure, in_file, read_json};
-use crate::job::LoadedJob;
-use crate::plate::Places;
+use crate::job::Printing;
 use crate::terminal::{Bar, print, print_json};
 use crate::watch::{keep_within, stop_on_interrupt};
 
 /// Models, and the prices of a shop.
 #[derive(Args)]
 pub struct Pricing {
-    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies. Or one job file of `cusp plate`
-    #[arg(required = true, value_name = "MODEL[:N]")]
-    models: Vec<PathBuf>,
+    #[command(flatten)]
+    pub printing: Printing,
     /// Prices of a shop, as a JSON file
     #[arg(long, value_name = "FILE.json")]
     prices: PathBuf,
     /// The finish, by its name in the prices
     #[arg(long, value_name = "NAME")]
     finish: Option<String>,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
     #[command(flatten)]
     budget: Budget,
-    #[command(flatten)]
-    places: Places,
-    #[command(flatten)]
-    choices: Choices,
 }
 
 /// What `price` prints as JSON.
@@ -85,11 +74,10 @@ impl<'a> Order<'a> {
 
 pub fn price(pricing: &Pricing) -> Result<(), Failure> {
     keep_within(&pricing.budget);
-    pricing.choices.check("price");
-    check_inputs("price", &pricing.models);
+    let printing = &pricing.printing;
+    printing.check("price");
     let order = Order::read(&pricing.prices, pricing.finish.as_deref())?;
-    let (models, places, choices) = (&pricing.models, &pricing.places, &pricing.choices);
-    let mut job = LoadedJob::read("price", models, places, choices, &pricing.budget)?;
+    let mut job = printing.read("price", &pricing.budget)?;
     stop_on_interrupt();
     let bar = Bar::new();
     let report = job.plan(&mut |stage, fraction| bar.report(stage, fraction))?;
@@ -103,7 +91,7 @@ pub fn price(pricing: &Pricing) -> Result<(), Failure> {
         print_time_s: report.print_time_s,
         resin_ml: report.resin_ml,
     };
-    if pricing.json {
+    if printing.json {
         return Ok(print_json(&priced)?);
     }
     Ok(print(&describe(&priced))?)

@@ -11,14 +11,13 @@ use cusp_slicer::job::{
 use cusp_slicer::profile::Metric;
 use serde::Serialize;
 
-use crate::arguments::{Settings, Slicing, Studying};
+use crate::arguments::{Places, Settings, Slicing, Studying};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
 use crate::budget::Budget;
 use crate::export::{export, export_plugs};
 use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder, numbered};
 use crate::job::LoadedJob;
 use crate::job_file::JobFile;
-use crate::plate::Places;
 use crate::terminal::{Bar, duration, open_gpu, print, print_json};
 use crate::usage::{check_json, wrong_usage};
 use crate::watch::{keep_within, stop_on_interrupt};
@@ -27,9 +26,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     keep_within(&slicing.budget);
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
-    if slicing.models.len() > 1 {
-        slicing.check_meshes("slice");
-    }
+    slicing.check_meshes("slice", slicing.models.len());
     let is_plate = slicing.is_plate("slice")?;
     if !is_plate && is_folder(output) {
         return slice_all(slicing, output);
@@ -71,9 +68,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
     keep_within(&slicing.budget);
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
-    if slicing.models.len() > 1 {
-        slicing.check_meshes("plan");
-    }
+    slicing.check_meshes("plan", slicing.models.len());
     if !slicing.is_plate("plan")? && slicing.models.len() > 1 {
         return plan_all(slicing);
     }
@@ -97,10 +92,10 @@ impl Slicing {
         Ok(is_file || self.arrange)
     }
 
-    /// Refuses files of one mesh.
-    fn check_meshes(&self, command: &str) {
+    /// Refuses files of one mesh where there are several models.
+    fn check_meshes(&self, command: &str, models: usize) {
         for (file, option) in [(&self.export, "--export"), (&self.plugs, "--plugs")] {
-            if file.is_some() {
+            if models > 1 && file.is_some() {
                 let message = format!("{option} is of one model: name one");
                 wrong_usage(command, &message);
             }
@@ -110,9 +105,7 @@ impl Slicing {
     fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
         let (places, choices) = (&self.places, &self.choices);
         let mut job = LoadedJob::read(command, &self.models, places, choices, &self.budget)?;
-        if job.paths.len() > 1 {
-            self.check_meshes(command);
-        }
+        self.check_meshes(command, job.paths.len());
         if self.arrange {
             job.arrange()?;
         }
