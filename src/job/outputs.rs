@@ -16,7 +16,7 @@ use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Report, Tradeoff};
 use crate::archive::layer_profile::{self, LayeredModel};
 use crate::archive::{self, Layer, Look, MaskSource, PrintJob, Screen, Standing};
-use crate::arrange::ArrangeError;
+use crate::arrange::{self, ArrangeError};
 use crate::mask::{MaskCursor, PlateMasks, PlateRuns, Side, Stamp};
 use crate::model::{FacetClass, Mesh};
 use crate::plan::Plan;
@@ -123,10 +123,9 @@ impl Job {
     /// [`Error::NoPlan`], [`Error::Arrange`].
     pub fn places_mm(&self, plate: usize) -> Result<Vec<Vec<DVec2>>, Error> {
         let found = self.plate(plate)?;
-        let [x_mm, y_mm] = screen_of(&found.planned, &found.output).pitch_mm;
-        let place_mm = |&[right, down]: &[i32; 2]| {
-            DVec2::new(f64::from(right) * x_mm, -f64::from(down) * y_mm)
-        };
+        let mask_screen = screen_of(&found.planned, &found.output);
+        let screen = arrange::Screen::new(mask_screen.pixels, mask_screen.pitch_mm);
+        let place_mm = |&offset: &[i32; 2]| DVec2::from(screen.offset_mm(offset));
         let offsets = found.offsets.iter();
         Ok(offsets
             .map(|it| it.iter().map(place_mm).collect())

@@ -374,8 +374,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return printFile(`${stemOfPlate(plate, of.report.plates, of.models)}-cusp`, blob, reportOf(of.report.plates, plate));
     },
     exportAll(call = {}) {
-      const gone = new AbortController();
-      const signal = call.signal === undefined ? gone.signal : AbortSignal.any([call.signal, gone.signal]);
+      const { gone, signal } = leavable(call);
       let plate = 0;
       let first: JobReport | null = null;
       return new ReadableStream<PrintFile>(
@@ -395,8 +394,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
     },
     exportStream(options, call = {}) {
       const { plate = 0 } = call;
-      const gone = new AbortController();
-      const signal = call.signal === undefined ? gone.signal : AbortSignal.any([call.signal, gone.signal]);
+      const { gone, signal } = leavable(call);
       const planned = wanted(options, call);
       return new ReadableStream<Uint8Array>({
         async start(controller) {
@@ -488,6 +486,12 @@ function modelOf(all: readonly Entry[], id: number | undefined): Entry {
   const model = id === undefined ? all[0] : all[placeOf(all, id)];
   if (model === undefined) throw noModel();
   return model;
+}
+
+/** The signal of a call, aborted also by `gone` when the reader of its stream leaves. */
+function leavable({ signal }: Watch): { readonly gone: AbortController; readonly signal: AbortSignal } {
+  const gone = new AbortController();
+  return { gone, signal: signal === undefined ? gone.signal : AbortSignal.any([signal, gone.signal]) };
 }
 
 const noModel = (): SlicerError => new SlicerError("no-model", "load a model first");
