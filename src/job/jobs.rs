@@ -91,7 +91,7 @@ impl Job {
         self
     }
 
-    /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found anew
+    /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found again
     /// when they are needed, and print files are the same. Models share them equally. See [`Error::MemoryBound`] for what is not
     /// possible.
     #[cfg(not(target_arch = "wasm32"))]

@@ -1,4 +1,4 @@
-//! What a plate of several models needs of time and resin, and each copy's fair share.
+//! Time and resin of a plate of several models, and each copy's fair share.
 
 use serde::Serialize;
 
@@ -22,7 +22,7 @@ pub struct ModelReport {
     pub model: usize,
     /// Its file.
     pub file: ModelFile,
-    /// How it differs from the options of the job, with its copies on this plate.
+    /// Options that differ from those of the job, with its copies on this plate.
     pub options: ModelOptions,
     /// CRC-32 of the user's weights of its facets, if any.
     pub weights_crc32: Option<u32>,
@@ -178,7 +178,7 @@ fn time_shares_s(plan: &Plan, resin: &Resin, sharers: &[Sharer]) -> Vec<f64> {
     shares_s
 }
 
-/// What the plates of a job need in all.
+/// Plates of a job, with their time and resin in all.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

@@ -129,7 +129,7 @@ fn contours_of_a_plate_are_those_of_each_model_where_its_copies_stand() {
         (2.0 * 110.0 + 96.0..2.0 * 113.2 + 96.1).contains(&volume),
         "{volume}"
     );
-    // Each outline is around the place of one copy, turned as it stands.
+    // Each outline surrounds the place of one copy, and has its turn.
     let boxes = lowest_boxes(&fs::read_to_string(&path).unwrap());
     let placements = plan["placements"].as_array().unwrap();
     assert_eq!((boxes.len(), placements.len()), (3, 3));

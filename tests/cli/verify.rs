@@ -206,7 +206,7 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
         assert_fails(&output, 1, "not the print file that this plan gives");
     }
 
-    // Models in their order are as good as the job file, but for weights; the first alone is not.
+    // Models in their order do for the job file, except for weights; the first alone does not.
     let column = path("column.stl");
     assert_fails(
         &cusp(&["verify", &plan, &column, &ball]),

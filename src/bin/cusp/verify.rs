@@ -49,7 +49,7 @@ pub struct Verifying {
     /// Take this much processor time at most, in seconds of all cores together
     #[arg(long, value_name = "S", value_parser = positive, default_value_t = 600.0)]
     max_cpu_time: f64,
-    /// How often to price the copies of the plan [default: 1]
+    /// Prints of the plan to price [default: 1]
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), requires = "prices")]
     copies: Option<u32>,
     /// The finish to price, by its name in the prices
