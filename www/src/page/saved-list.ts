@@ -1,6 +1,6 @@
 /**
- * `<cusp-saved>`: named settings to apply, save, rename and delete, and a link to the current ones. Its host gives it `query`, the
- * current settings, and `link`, which gives their address; it fires `cusp-apply` with the query to apply.
+ * `<cusp-saved>`: named settings to apply, save, rename and delete, and a link to the current ones. Its host gives it `query`, which
+ * gives the current settings, and `link`, which gives their address; it fires `cusp-apply` with the query to apply.
  */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
@@ -24,7 +24,7 @@ interface Said {
 }
 
 const PROPERTIES = {
-  query: given(""),
+  query: given((): string => ""),
   link: given((): string => ""),
   language: given<Language>(languageOf()),
   list: own<readonly SavedSettings[]>([]),
@@ -89,7 +89,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
     const save = (event: Event): void => {
       event.preventDefault();
       const name = typed.trim();
-      if (name === "" || !this.#write(withSaved(this.#fresh(), { name, query: savedQuery(this.query) }), { text: words.saved(name) })) return;
+      if (name === "" || !this.#write(withSaved(this.#fresh(), { name, query: savedQuery(this.query()) }), { text: words.saved(name) })) return;
       this.typed = "";
     };
     return html`<div class="panel">
@@ -116,7 +116,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
         ${shown === null
           ? nothing
           : html`<label>${words.copyByHand}<input type="text" readonly .value=${shown} @focus=${selected} /></label>`}
-        <button class="small" aria-describedby="file" ?disabled=${settingsFile(this.query) === null} @click=${this.#save}>${words.toFile}</button>
+        <button class="small" aria-describedby="file" ?disabled=${settingsFile(this.query()) === null} @click=${this.#save}>${words.toFile}</button>
         <p class="about" id="file">${words.aboutFile}</p>
       </div>
     </div>`;
@@ -127,7 +127,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
     const { renamed } = this;
     if (renamed?.from === name) return html`<li>${this.#renaming(renamed, query)}</li>`;
     return html`<li>
-      <button class="row" aria-current=${query === savedQuery(this.query)} @click=${() => this.#apply(query)}>
+      <button class="row" aria-current=${query === savedQuery(this.query())} @click=${() => this.#apply(query)}>
         ${icon("applied")}<span>${name}</span>
       </button>
       <button class="icon" data-name=${name} aria-label=${words.rename(name)} title=${words.rename(name)} @click=${() => void this.#rename(name)}>
@@ -178,7 +178,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
 
   #apply(query: string): void {
     this.said = null;
-    this.dispatchEvent(new CustomEvent<string>("cusp-apply", { detail: appliedTo(this.query, query) }));
+    this.dispatchEvent(new CustomEvent<string>("cusp-apply", { detail: appliedTo(this.query(), query) }));
   }
 
   async #rename(name: string): Promise<void> {
@@ -206,7 +206,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
   };
 
   readonly #save = (): void => {
-    const text = settingsFile(this.query);
+    const text = settingsFile(this.query());
     if (text === null) return;
     saveFile({ name: FILE_NAME, blob: new Blob([text], { type: "application/toml" }) });
     this.said = { text: visitWords(this.language).saved.inFile };

@@ -48,7 +48,7 @@ export class Visit {
     const tour = document.querySelector("cusp-tour");
     if (tour !== null) tour.language = language;
     this.#language = language;
-    const saved = html`<cusp-saved .language=${language} .link=${link} @cusp-apply=${this.#apply}></cusp-saved>`;
+    const saved = html`<cusp-saved .language=${language} .query=${this.#query} .link=${link} @cusp-apply=${this.#apply}></cusp-saved>`;
     const keys = html`<cusp-keys .language=${language} @cusp-tour=${() => void this.#asked(() => this.#tour())}></cusp-keys>`;
     return html`<div class="tools">
       ${this.#canKeep
@@ -129,6 +129,8 @@ export class Visit {
     this.#host.open(detail);
   };
 
+  readonly #query = (): string => this.#host.element().query;
+
   readonly #apply = ({ detail }: CustomEvent<string>): void => {
     closeFlyout("saved");
     this.#host.element().query = detail;
@@ -145,8 +147,8 @@ export class Visit {
   async #fetchSaved(): Promise<void> {
     await this.#fetchWords(this.#language);
     await import("./saved-list.js");
-    const list = document.querySelector("cusp-saved");
-    if (list !== null) list.query = this.#host.element().query;
+    // Which of the saved settings are the current ones may have changed since it was last open.
+    document.querySelector("cusp-saved")?.requestUpdate();
   }
 
   async #keys(): Promise<void> {
