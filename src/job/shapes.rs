@@ -15,7 +15,7 @@ use super::stages::sampled::Sampled;
 use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Timings};
 use crate::parallel;
-use crate::progress::silent;
+use crate::progress::{Progress, silent};
 
 /// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
 #[derive(Debug)]
@@ -111,20 +111,19 @@ impl Job {
         report(progress, Stage::Profile, 0.0)?;
         let clock = Instant::now();
         let known = |shape: &Shape| shape.measured.clone();
-        let measured = match (&self.shapes[..], weights) {
-            ([alone], mut weights) => {
-                let mut within = |fraction| progress(Stage::Profile, fraction);
-                let weights = weights.pop().flatten();
-                let (of, known) = (&alone.sampled, known(alone));
-                vec![Measured::new(of, layering, weights, known, &mut within)]
-            }
-            (shapes, weights) => {
-                let all = shapes.iter().zip(weights).collect();
-                parallel::map(all, |(shape, weights): (&Shape, _)| {
-                    let (of, known) = (&shape.sampled, known(shape));
-                    Measured::new(of, layering, weights, known, &mut silent)
-                })
-            }
+        let measure = |(shape, weights): (&Shape, _), progress: &mut Progress<'_>| {
+            Measured::new(&shape.sampled, layering, weights, known(shape), progress)
+        };
+        let count = self.shapes.len();
+        let all = self.shapes.iter().zip(weights);
+        let measured: Vec<_> = if count == 1 || parallel::threads() == 1 {
+            let one_by_one = all.enumerate().map(|(number, it)| {
+                let done = |fraction| (number as f64 + fraction) / count as f64;
+                measure(it, &mut |fraction| progress(Stage::Profile, done(fraction)))
+            });
+            one_by_one.collect()
+        } else {
+            parallel::map(all.collect(), |it| measure(it, &mut silent))
         };
         let mut is_new = false;
         for (shape, measured) in self.shapes.iter_mut().zip(measured) {

@@ -2,7 +2,7 @@
 
 use tempfile::TempDir;
 
-use super::{assert_fails, cusp, json, model, on_cpu, sphere};
+use super::{assert_fails, cusp, json, model, on_cpu, slab, sphere, whole_json};
 use crate::common::assert_near;
 
 #[test]
@@ -231,6 +231,46 @@ fn the_trade_off_and_the_comparison_are_shown_and_agree_with_plans() {
             "{shown}"
         );
     }
+}
+
+#[test]
+fn plates_have_a_curve_and_a_comparison_each() {
+    let folder = TempDir::new().unwrap();
+    let (ball, slab) = (sphere(&folder), slab(&folder));
+    // The slab has a plate of its own: two high ones fit side by side.
+    let plate = ["--pixels", "160x110", "--pitch", "0.1", "--json"];
+    let run = |rest: &[&str]| whole_json(&on_cpu(&[rest, &plate[..]].concat()));
+    let balls = format!("{ball}:2");
+    let plans = run(&["plan", "--arrange", &balls, &slab]);
+    let planned = plans["plates"].as_array().unwrap();
+    assert_eq!(planned.len(), 2);
+    let compared = run(&["compare", &balls, &slab]);
+    let curves = run(&["tradeoff", &balls, &slab, "--points", "5"]);
+    for (number, plan) in planned.iter().enumerate() {
+        let optimal = &compared["plates"][number]["rows"][1];
+        assert_eq!(optimal["layers"], plan["layers"]);
+        let points = curves["plates"][number]["points"].as_array().unwrap();
+        let finest = points.iter().map(|point| point["layers"].as_u64()).max();
+        let tolerance = plan["tolerance"].as_f64();
+        let within = points
+            .iter()
+            .filter(|it| it["tolerance"].as_f64() <= tolerance);
+        let fewest = within.map(|point| point["layers"].as_u64()).min();
+        assert!(finest >= Some(plan["layers"].as_u64()), "{curves}");
+        assert!(fewest >= Some(plan["layers"].as_u64()), "{curves}");
+    }
+    assert_ne!(curves["plates"][0], curves["plates"][1]);
+    let output = on_cpu(&[
+        "compare", &balls, &slab, "--pixels", "160x110", "--pitch", "0.1",
+    ]);
+    let shown = String::from_utf8(output.stdout).unwrap();
+    assert!(shown.contains("plate 2 of 2"), "{shown}");
+    // Who is meant is said by its file.
+    let output = on_cpu(&[
+        "compare", &ball, &slab, "--pixels", "50x50", "--pitch", "0.1",
+    ]);
+    assert_fails(&output, 1, "ball.stl is 6.000 × 6.000 mm");
+    assert!(!String::from_utf8_lossy(&output.stderr).contains("plate: "));
 }
 
 #[test]

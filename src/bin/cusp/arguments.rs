@@ -15,7 +15,8 @@ use cusp_slicer::profile::{Metric, Source};
 
 use crate::budget::Budget;
 use crate::config::{self, SettingsFile};
-use crate::files::{Failure, Reading, WeightsFile, printer_choice, read_json, read_resin};
+use crate::failure::Failure;
+use crate::files::{Reading, WeightsFile, printer_choice, read_json, read_resin};
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
     DrainArg, PrinterName, antialias, drain, height_range, length, mesh_file, not_negative, pitch,
@@ -44,18 +45,6 @@ pub struct Slicing {
     pub plugs: Option<PathBuf>,
     #[command(flatten)]
     pub budget: Budget,
-    #[command(flatten)]
-    pub choices: Choices,
-}
-
-/// A model, and how it would be sliced.
-#[derive(Args)]
-pub struct Studying {
-    /// Model: 3MF, OBJ or STL; - is standard input
-    pub model: PathBuf,
-    /// Print one JSON object
-    #[arg(long)]
-    pub json: bool,
     #[command(flatten)]
     pub choices: Choices,
 }

@@ -11,8 +11,9 @@ use cusp_slicer::job::{JobReport, MeshInfo, Stage};
 use cusp_slicer::warning::Warning;
 use serde::Serialize;
 
-use crate::files::{Failure, Problem, is_standard};
-use crate::terminal::{Bar, print, print_json, say};
+use crate::failure::{Failure, Problem, in_file, is_standard};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json, say};
 use crate::usage::wrong_usage;
 use crate::visible::visible;
 use crate::watch::{is_stopped, stop_on_interrupt};
@@ -286,7 +287,7 @@ pub fn outputs_in(
         let name = model.file_stem().filter(|_| !is_standard(model));
         let Some(name) = name else {
             let reason = "this has no name for a print file in a folder; name a file by -o";
-            return Err(crate::files::in_file(model, &reason).into());
+            return Err(in_file(model, &reason).into());
         };
         // The extension is added, not replaced: names may have dots.
         let mut name = name.to_owned();

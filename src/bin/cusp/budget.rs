@@ -8,6 +8,7 @@ use clap::Args;
 use cusp_slicer::job::Job;
 
 use crate::values::positive;
+use crate::watch::keep_within;
 #[cfg(target_os = "linux")]
 use crate::watch::memory_taken_bytes;
 
@@ -23,7 +24,7 @@ pub struct Budget {
 }
 
 impl Budget {
-    /// So much memory and time, in seconds.
+    /// Bounds of memory, and of time in seconds.
     pub fn of(max_memory: ByteSize, max_cpu_time: f64) -> Self {
         Self {
             max_memory: Some(max_memory),
@@ -32,13 +33,14 @@ impl Budget {
     }
 
     /// What is asked for, or what the system leaves if that is less.
-    pub fn memory_bytes(&self) -> Option<u64> {
+    fn memory_bytes(&self) -> Option<u64> {
         let asked = self.max_memory.map(|ByteSize(bytes)| bytes);
         asked.into_iter().chain(address_bytes()).min()
     }
 
-    pub fn cpu_time_s(&self) -> Option<f64> {
-        self.max_cpu_time
+    /// From here on, what exceeds it stops the command.
+    pub fn keep(&self) {
+        keep_within(self.max_cpu_time, self.memory_bytes());
     }
 
     /// A job with its share, of which `workers` take some at a time.

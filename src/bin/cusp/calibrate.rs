@@ -8,8 +8,10 @@ use cusp_slicer::job::Calibration;
 use serde::Serialize;
 
 use crate::arguments::Target;
-use crate::files::{Failure, Output, read_resin};
-use crate::terminal::{Bar, duration, print, print_json};
+use crate::failure::Failure;
+use crate::files::{Output, read_resin};
+use crate::progress::Bar;
+use crate::terminal::{duration, print, print_json};
 use crate::usage::check_json;
 use crate::values::{length, measured, positive};
 use crate::watch::stop_on_interrupt;

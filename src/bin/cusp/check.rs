@@ -9,9 +9,11 @@ use cusp_slicer::job::{PlatePrintability, Report};
 use serde::Serialize;
 
 use crate::budget::Budget;
-use crate::files::{Failure, in_file, read_json};
+use crate::failure::{Failure, in_file};
+use crate::files::read_json;
 use crate::job::Printing;
-use crate::terminal::{Bar, print, print_json};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json};
 use crate::watch::stop_on_interrupt;
 
 /// Models, and what a shop accepts.

@@ -10,7 +10,8 @@ use serde::Deserialize as _;
 use toml::Spanned;
 use toml::de::{DeTable, DeValue, Deserializer};
 
-use crate::files::{Failure, in_file, printer_choice, read_resin};
+use crate::failure::{Failure, in_file};
+use crate::files::{printer_choice, read_resin};
 
 /// What a file of settings says; the rest has its defaults.
 #[derive(Default)]

@@ -11,9 +11,11 @@ use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
 
 use crate::budget::Budget;
-use crate::files::{Failure, Output, Writer, numbered};
+use crate::failure::Failure;
+use crate::files::{Output, Writer, numbered};
 use crate::job::{LoadedJob, Printing};
-use crate::terminal::{Bar, print, print_json};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json};
 use crate::values::not_negative;
 use crate::watch::stop_on_interrupt;
 

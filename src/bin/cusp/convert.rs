@@ -10,8 +10,10 @@ use cusp_slicer::job::{Conversion, Loss, Target};
 use cusp_slicer::printer::format_of;
 use serde::Serialize;
 
-use crate::files::{Failure, Output, in_file, printer_choice, read, read_resin};
-use crate::terminal::{Bar, duration, print, print_json, warn};
+use crate::failure::{Failure, in_file};
+use crate::files::{Output, printer_choice, read, read_resin};
+use crate::progress::Bar;
+use crate::terminal::{duration, print, print_json, warn};
 use crate::usage::check_json;
 use crate::values::PrinterName;
 use crate::visible::visible;

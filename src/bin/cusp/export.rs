@@ -8,7 +8,8 @@ use cusp_slicer::progress::silent;
 use glam::Vec3;
 use stl_io::{Normal, Triangle, Vertex};
 
-use crate::files::{Failure, Output, in_file};
+use crate::failure::{Failure, in_file};
+use crate::files::Output;
 
 /// Writes the mesh of the last plan with its voids and supports, as 3MF if the file is named so, or else as STL.
 pub fn export(job: &Job, file: &Path) -> Result<(), Failure> {

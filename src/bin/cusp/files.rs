@@ -12,148 +12,12 @@ use cusp_slicer::misnamed::with_nearest;
 use cusp_slicer::model::read::{HEAD_BYTES, ReadOptions, identify};
 use cusp_slicer::model::weights::{self, WeightsError};
 use cusp_slicer::printer::PrinterChoice;
-use cusp_slicer::progress::Cancelled;
 use cusp_slicer::resin::Resin;
-use serde::Serialize;
 use serde::de::DeserializeOwned;
-use serde_json::Value;
 
+use crate::failure::{Failure, in_file, is_standard};
 use crate::terminal::{is_on_terminal, take_stdout};
-use crate::unfinished::Unfinished;
-use crate::visible::{visible, visible_detail};
-
-/// The exit code of a command that was interrupted.
-const INTERRUPTED: u8 = 130;
-
-/// Why a command failed.
-pub struct Failure {
-    pub exit_code: u8,
-    /// The message for the user; `None` if it has already been shown.
-    pub message: Option<String>,
-    /// The same for programs.
-    pub problem: Option<Box<Problem>>,
-}
-
-/// What failed, for programs.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Problem {
-    /// The code of the library's error; `file` if a file cannot be read or written, `usage` if the command line is wrong.
-    pub code: String,
-    /// One sentence that says what to do.
-    pub message: String,
-    /// The typed details that the code has, if any.
-    #[serde(skip_serializing_if = "Value::is_null")]
-    pub detail: Value,
-    /// The file that it is about, as the command line names it; absent if the message names one, and where the line has its model.
-    #[serde(skip_serializing_if = "Option::is_none")]
-    pub file: Option<String>,
-}
-
-impl Problem {
-    /// A typed failure that concerns no file.
-    fn of(error: &(impl Display + Serialize)) -> Self {
-        let mut typed = serde_json::to_value(error).unwrap_or_default();
-        let mut detail = typed["detail"].take();
-        visible_detail(&mut detail);
-        Self {
-            code: typed["code"].as_str().unwrap_or_default().to_owned(),
-            message: visible(&error.to_string()).into_owned(),
-            detail,
-            file: None,
-        }
-    }
-}
-
-/// What a command prints in JSON when it fails.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Failed {
-    /// Why.
-    pub error: Problem,
-}
-
-impl From<String> for Failure {
-    fn from(message: String) -> Self {
-        Self {
-            exit_code: 1,
-            problem: Some(Box::new(Problem {
-                code: "file".to_owned(),
-                message: visible(&message).into_owned(),
-                detail: Value::Null,
-                file: None,
-            })),
-            message: Some(message),
-        }
-    }
-}
-
-impl Failure {
-    /// A failure of the library that concerns a file. An interrupt does not name the file.
-    pub fn in_file(path: &Path, error: &cusp_slicer::Error) -> Self {
-        if error.code() == "cancelled" {
-            Self::interrupted()
-        } else {
-            Self::of(path, error)
-        }
-    }
-
-    /// A typed failure that concerns a file.
-    pub fn of(path: &Path, error: &(impl Display + Serialize)) -> Self {
-        Self {
-            exit_code: 1,
-            message: Some(in_file(path, error)),
-            problem: Some(Box::new(Problem {
-                file: Some(visible(&path.to_string_lossy()).into_owned()),
-                ..Problem::of(error)
-            })),
-        }
-    }
-
-    /// The same with another message.
-    pub fn renamed(mut self, rename: impl Fn(&str) -> String) -> Self {
-        self.message = self.message.as_deref().map(&rename);
-        if let Some(problem) = &mut self.problem {
-            problem.message = rename(&problem.message);
-        }
-        self
-    }
-
-    pub fn interrupted() -> Self {
-        Self {
-            exit_code: INTERRUPTED,
-            message: Some(Cancelled.to_string()),
-            problem: None,
-        }
-    }
-
-    /// A bound that the command has exceeded.
-    pub fn bound(error: &cusp_slicer::Error) -> Self {
-        Self {
-            exit_code: 1,
-            message: Some(error.to_string()),
-            problem: Some(Box::new(Problem::of(error))),
-        }
-    }
-
-    pub fn is_interrupt(&self) -> bool {
-        self.exit_code == INTERRUPTED
-    }
-
-    /// The same for programs; `None` if it has already been shown, and for an interrupt, which the exit code tells.
-    pub fn told(self) -> Option<Failed> {
-        Some(Failed {
-            error: *self.problem?,
-        })
-    }
-
-    /// Bad input that has already been reported.
-    pub const TOLD: Self = Self {
-        exit_code: 1,
-        message: None,
-        problem: None,
-    };
-}
+use crate::unfinished::{Unfinished, parent};
 
 /// Reads a JSON file of the user's own.
 pub fn read_json<T: DeserializeOwned>(path: &Path) -> Result<T, Failure> {
@@ -166,13 +30,6 @@ pub fn parse_json<T: DeserializeOwned>(path: &Path, text: &str) -> Result<T, Fai
     let text = text.strip_prefix('\u{feff}').unwrap_or(text);
     let value = serde_json::from_str(text);
     Ok(value.map_err(|error| in_file(path, &with_nearest(&error.to_string())))?)
-}
-
-pub fn in_file(path: &Path, error: &dyn Display) -> String {
-    if is_standard(path) {
-        return format!("standard input: {error}");
-    }
-    format!("{}: {error}", path.display())
 }
 
 /// The resin of a file, or the default.
@@ -190,11 +47,6 @@ pub fn printer_choice(printer: &str) -> Result<PrinterChoice, Failure> {
         return Ok(PrinterChoice::Named(printer.to_owned()));
     }
     Ok(PrinterChoice::Own(read_json(path)?))
-}
-
-/// Whether this stands for standard input or output.
-pub fn is_standard(path: &Path) -> bool {
-    path == Path::new("-")
 }
 
 /// Reads a file, or standard input to its end.
@@ -466,12 +318,4 @@ pub fn make_folder(folder: &Path) -> Result<(), Failure> {
         return Err(in_file(folder, &reason).into());
     }
     Ok(fs::create_dir_all(folder).map_err(|error| in_file(folder, &error))?)
-}
-
-/// The folder that a path is in.
-pub fn parent(path: &Path) -> &Path {
-    match path.parent() {
-        Some(folder) if !folder.as_os_str().is_empty() => folder,
-        _ => Path::new("."),
-    }
 }

@@ -5,8 +5,10 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
 
-use crate::files::{Failure, Output, in_file, read};
-use crate::terminal::{Bar, duration, print, print_json, warn};
+use crate::failure::{Failure, in_file};
+use crate::files::{Output, read};
+use crate::progress::Bar;
+use crate::terminal::{duration, print, print_json, warn};
 use crate::usage::check_json;
 use crate::visible::visible;
 use crate::watch::stop_on_interrupt;

@@ -9,7 +9,7 @@ use cusp_slicer::warning::Warning;
 use crate::arguments::{Choices, Places, Settings};
 use crate::batch::check_inputs;
 use crate::budget::Budget;
-use crate::files::Failure;
+use crate::failure::Failure;
 use crate::job_file::{JobFile, JobModel, LoadedModels, with_copies};
 use crate::terminal::{open_gpu, say};
 use crate::usage::wrong_usage;
@@ -49,6 +49,8 @@ impl Printing {
 
 /// A job whose models are read.
 pub struct LoadedJob {
+    /// The job file, if there is one.
+    file: Option<PathBuf>,
     pub paths: Vec<PathBuf>,
     /// The file of weights of each model, if it has one.
     pub weights: Vec<Option<PathBuf>>,
@@ -83,7 +85,10 @@ impl LoadedJob {
             }
             Some(file) => {
                 let read = file.read_models(models[0].parent())?;
-                Self::of(read, &file, &settings, budget)
+                Self {
+                    file: Some(models[0].clone()),
+                    ..Self::of(read, &file, &settings, budget)
+                }
             }
             None => {
                 let reading = settings.reading.options;
@@ -113,6 +118,7 @@ impl LoadedJob {
     ) -> Result<Self, Failure> {
         let job = Job::new(vec![settings.reading.load(model)?]);
         Ok(Self {
+            file: None,
             paths: vec![model.to_owned()],
             weights: vec![None],
             job: budget.bound(job, workers),
@@ -125,6 +131,7 @@ impl LoadedJob {
 
     fn of(read: LoadedModels, file: &JobFile, settings: &Settings, budget: &Budget) -> Self {
         Self {
+            file: None,
             paths: read.paths,
             weights: read.weights,
             job: budget.bound(Job::new(read.models), 1),
@@ -149,6 +156,17 @@ impl LoadedJob {
         Ok(())
     }
 
+    /// Number of plates. Copies that have no places are arranged, but for a single one, which needs no plate.
+    pub fn plates(&mut self) -> Result<usize, Failure> {
+        let is_alone = matches!(&self.options.models[..], [one] if one.copies == 1);
+        if self.options.placements.is_empty() && !is_alone {
+            let places = self.job.arrange(&self.options);
+            self.options.placements = places.map_err(|error| self.failure(&error))?;
+        }
+        let plates = self.options.placements.iter().map(|place| place.plate + 1);
+        Ok(plates.max().unwrap_or(1))
+    }
+
     /// Plans all plates.
     pub fn plan(&mut self, progress: &mut StageProgress<'_>) -> Result<JobReport, Failure> {
         if self.options.options.backend == Backend::Gpu {
@@ -160,11 +178,30 @@ impl LoadedJob {
 
     /// A failure of the library, whose message names models by their files in place of their numbers.
     pub fn failure(&self, error: &cusp_slicer::Error) -> Failure {
-        let [only] = &self.paths[..] else {
-            return Failure::in_file(Path::new("plate"), error)
-                .renamed(|message| self.named(message));
+        match (&self.file, &self.paths[..]) {
+            (Some(file), _) => Failure::in_file(file, error).renamed(|message| self.named(message)),
+            (None, [only]) => Failure::in_file(only, error),
+            _ if error.code() == "cancelled" => Failure::interrupted(),
+            _ => Failure::without_file(error).renamed(|message| {
+                let named = self.named(message);
+                if named == message {
+                    format!("{}: {message}", self.names())
+                } else {
+                    named
+                }
+            }),
+        }
+    }
+
+    /// The files of all models, of many the first.
+    fn names(&self) -> String {
+        let [first, .., last] = &self.paths[..] else {
+            return String::new();
         };
-        Failure::in_file(only, error)
+        match self.paths.len() {
+            2 => format!("{} and {}", first.display(), last.display()),
+            count => format!("{} and {} more", first.display(), count - 1),
+        }
     }
 
     /// A message with the files of models in place of their numbers.

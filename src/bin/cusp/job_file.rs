@@ -9,7 +9,8 @@ use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{Hollowing, Supporting};
 use serde::{Deserialize, Serialize};
 
-use crate::files::{Failure, Reading, WeightsFile, is_standard, read_json};
+use crate::failure::{Failure, is_standard};
+use crate::files::{Reading, WeightsFile, read_json};
 
 /// A job file: models, options and places. Paths are relative to the file.
 #[derive(Default, Serialize, Deserialize)]
@@ -107,6 +108,15 @@ impl JobModel {
         }
     }
 
+    /// Choices for reading it.
+    pub fn reading(&self) -> ReadOptions {
+        ReadOptions {
+            plate_number: self.plate,
+            surfaces: self.surfaces,
+            curved_caps: self.curved_caps,
+        }
+    }
+
     pub fn own(&self) -> ModelOptions {
         ModelOptions {
             copies: self.copies,
@@ -144,11 +154,7 @@ impl JobFile {
             let weights = model.weights.as_deref().map(within);
             let reading = Reading {
                 weights: weights.as_deref().map(WeightsFile::read).transpose()?,
-                options: ReadOptions {
-                    plate_number: model.plate,
-                    surfaces: model.surfaces,
-                    curved_caps: model.curved_caps,
-                },
+                options: model.reading(),
             };
             read.models.push(reading.load(&path)?);
             read.weights.push(weights);

@@ -9,6 +9,7 @@ mod config;
 mod contours;
 mod convert;
 mod export;
+mod failure;
 mod files;
 mod inspect;
 mod job;
@@ -18,10 +19,12 @@ mod orient;
 mod packaging;
 mod plate;
 mod price;
+mod progress;
 #[cfg(test)]
 mod schemas;
 mod simulate;
 mod slice;
+mod study;
 mod terminal;
 mod unfinished;
 mod usage;
@@ -33,23 +36,23 @@ mod watch;
 use std::env;
 use std::path::PathBuf;
 use std::process::ExitCode;
-use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::atomic::Ordering;
 
-use clap::{Parser, Subcommand};
+use clap::{CommandFactory as _, Parser, Subcommand};
 
-use arguments::{ReadChoices, Slicing, Studying};
+use arguments::{ReadChoices, Slicing};
 use calibrate::Calibrating;
 use check::Checking;
 use contours::Contouring;
 use convert::Converting;
-use files::Failure;
+use failure::{IS_JSON, tell};
 use inspect::Inspecting;
+use job::Printing;
 use orient::Orienting;
 use plate::Plating;
 use price::Pricing;
 use simulate::Simulating;
-use terminal::{print_json, say};
-use usage::exit;
+use usage::{COMMAND_LINE, exit};
 use verify::Verifying;
 
 /// Adaptive slicer for resin printers: the fewest layers that keep the error within a tolerance.
@@ -90,7 +93,7 @@ enum Command {
     #[command(allow_negative_numbers = true)]
     Tradeoff {
         #[command(flatten)]
-        studying: Studying,
+        printing: Printing,
         /// Number of plans on the curve
         #[arg(long, default_value_t = 100, value_parser = clap::value_parser!(u32).range(2..=1000))]
         points: u32,
@@ -99,7 +102,7 @@ enum Command {
     #[command(allow_negative_numbers = true)]
     Compare {
         #[command(flatten)]
-        studying: Studying,
+        printing: Printing,
     },
     /// Find what will fail when a model is printed: islands, overhangs, cups, traps, thin walls and gaps
     ///
@@ -168,31 +171,10 @@ enum Command {
     },
 }
 
-/// Whether a program reads what is printed.
-static IS_JSON: AtomicBool = AtomicBool::new(false);
-
-/// Says why a command failed, once, and returns its exit code.
-fn tell(failure: Failure) -> u8 {
-    static IS_TOLD: AtomicBool = AtomicBool::new(false);
-    let exit_code = failure.exit_code;
-    if IS_TOLD.swap(true, Ordering::Relaxed) {
-        return exit_code;
-    }
-    if let Some(message) = &failure.message {
-        say(message);
-    }
-    if IS_JSON.load(Ordering::Relaxed)
-        && let Some(failed) = failure.told()
-    {
-        // It has been said on stderr.
-        let _ = print_json(&failed);
-    }
-    exit_code
-}
-
 fn main() -> ExitCode {
     // Also where the rest cannot be parsed.
     IS_JSON.store(env::args_os().any(|it| it == "--json"), Ordering::Relaxed);
+    COMMAND_LINE.get_or_init(|| Cli::command);
     let command = Cli::try_parse()
         .unwrap_or_else(|error| exit(&error))
         .command;
@@ -201,10 +183,10 @@ fn main() -> ExitCode {
         Command::Plan { slicing } => slice::plan(&slicing),
         Command::Plate(plating) => plate::plate(&plating),
         Command::Contours(contouring) => contours::contours(&contouring),
-        Command::Tradeoff { studying, points } => slice::tradeoff(&studying, points as usize),
+        Command::Tradeoff { printing, points } => study::tradeoff(&printing, points as usize),
         Command::Check(checking) => check::check(&checking),
         Command::Orient(orienting) => orient::orient(&orienting),
-        Command::Compare { studying } => slice::compare(&studying),
+        Command::Compare { printing } => study::compare(&printing),
         Command::Price(pricing) => price::price(&pricing),
         Command::Verify(verifying) => verify::verify(&verifying),
         Command::Simulate(simulating) => simulate::simulate(&simulating),
@@ -222,8 +204,8 @@ fn main() -> ExitCode {
             reading,
             json,
         } => models::info(&models, &reading.options(), json),
-        Command::Completions { shell } => packaging::completions(shell),
-        Command::Man { output } => packaging::man(output.as_deref()),
+        Command::Completions { shell } => packaging::completions(Cli::command(), shell),
+        Command::Man { output } => packaging::man(Cli::command(), output.as_deref()),
     };
     match result {
         Ok(()) => ExitCode::SUCCESS,

@@ -11,8 +11,10 @@ use cusp_slicer::printer::PRINTERS;
 use serde::Serialize;
 
 use crate::batch::{Batch, check_inputs, workers};
-use crate::files::{Failure, Output, load};
-use crate::terminal::{Bar, print, print_json};
+use crate::failure::Failure;
+use crate::files::{Output, load};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json};
 use crate::usage::check_json;
 use crate::watch::stop_on_interrupt;
 

@@ -15,8 +15,10 @@ use cusp_slicer::orientation::{
 use crate::arguments::{Choices, Settings};
 use crate::batch::check_inputs;
 use crate::export::write_stl;
-use crate::files::{Failure, Output, Reading, in_file, parse_json};
-use crate::terminal::{Bar, duration, print, print_json, print_json_line, say, to_json};
+use crate::failure::{Failure, in_file};
+use crate::files::{Output, Reading, parse_json};
+use crate::progress::Bar;
+use crate::terminal::{duration, print, print_json, print_json_line, say, to_json};
 use crate::usage::check_json;
 use crate::values::{fraction, shard};
 use crate::watch::{is_stopped, stop_on_interrupt};

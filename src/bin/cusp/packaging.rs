@@ -3,25 +3,23 @@
 use std::io::Write as _;
 use std::path::{Path, PathBuf};
 
-use clap::CommandFactory as _;
 use clap_complete::Shell;
 use clap_mangen::Man;
 
-use crate::Cli;
-use crate::files::{Failure, Output, make_folder};
+use crate::failure::Failure;
+use crate::files::{Output, make_folder};
 use crate::terminal::print;
 
 /// Prints the completions for a shell.
-pub fn completions(shell: Shell) -> Result<(), Failure> {
+pub fn completions(mut cli: clap::Command, shell: Shell) -> Result<(), Failure> {
     let mut script = Vec::new();
-    clap_complete::generate(shell, &mut Cli::command(), "cusp", &mut script);
+    clap_complete::generate(shell, &mut cli, "cusp", &mut script);
     let script = String::from_utf8_lossy(&script);
     Ok(print(script.trim_end())?)
 }
 
 /// Writes a manual page for each command, as `cusp-slice.1`, and `cusp.1`; or prints that alone.
-pub fn man(folder: Option<&Path>) -> Result<(), Failure> {
-    let mut cli = Cli::command();
+pub fn man(mut cli: clap::Command, folder: Option<&Path>) -> Result<(), Failure> {
     cli.build();
     let Some(folder) = folder else {
         let page = page_of(&cli)?;

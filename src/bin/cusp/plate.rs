@@ -7,11 +7,11 @@ use clap::Args;
 
 use crate::arguments::{Choices, Places};
 use crate::budget::Budget;
-use crate::files::{Failure, Output};
+use crate::failure::Failure;
+use crate::files::Output;
 use crate::job::LoadedJob;
 use crate::job_file::{JobFile, JobModel, path_from};
 use crate::terminal::{print, print_json};
-use crate::watch::keep_within;
 
 /// Models to arrange.
 #[derive(Args)]
@@ -35,7 +35,7 @@ pub struct Plating {
 
 /// Arranges models, and writes the job file.
 pub fn plate(plating: &Plating) -> Result<(), Failure> {
-    keep_within(&plating.budget);
+    plating.budget.keep();
     plating.choices.check("plate");
     let output = plating.output.as_deref();
     let output = output

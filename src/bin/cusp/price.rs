@@ -8,10 +8,12 @@ use cusp_slicer::price::{Price, PriceItem, Prices};
 use serde::Serialize;
 
 use crate::budget::Budget;
-use crate::files::{Failure, in_file, read_json};
+use crate::failure::{Failure, in_file};
+use crate::files::read_json;
 use crate::job::Printing;
-use crate::terminal::{Bar, print, print_json};
-use crate::watch::{keep_within, stop_on_interrupt};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json};
+use crate::watch::stop_on_interrupt;
 
 /// Models, and the prices of a shop.
 #[derive(Args)]
@@ -73,7 +75,7 @@ impl<'a> Order<'a> {
 }
 
 pub fn price(pricing: &Pricing) -> Result<(), Failure> {
-    keep_within(&pricing.budget);
+    pricing.budget.keep();
     let printing = &pricing.printing;
     printing.check("price");
     let order = Order::read(&pricing.prices, pricing.finish.as_deref())?;

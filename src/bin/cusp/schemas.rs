@@ -19,11 +19,11 @@ use crate::batch::BatchLine;
 use crate::calibrate::Calibrated;
 use crate::check::Checked;
 use crate::convert::Converted;
-use crate::files::Failed;
+use crate::failure::Failed;
 use crate::job_file::JobFile;
 use crate::models::Weighed;
 use crate::price::Priced;
-use crate::slice::Compared;
+use crate::study::{ComparedPlate, Studied};
 use crate::verify::Verified;
 
 /// Draft 7, which most validators know.
@@ -115,7 +115,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("batch-plan", output::<BatchLine<JobReport>>()),
         ("calibrate", output::<Calibrated>()),
         ("check", output::<Checked>()),
-        ("compare", output::<Compared>()),
+        ("compare", output::<Studied<ComparedPlate>>()),
         ("contours", output::<Contoured>()),
         ("convert", output::<Converted>()),
         ("error", output::<Failed>()),
@@ -134,7 +134,7 @@ fn the_schemas_of_reports_are_recorded() {
         ("saliency", output::<Weighed>()),
         ("settings", settings()),
         ("simulate", output::<Simulation>()),
-        ("tradeoff", output::<Tradeoff>()),
+        ("tradeoff", output::<Studied<Tradeoff>>()),
         ("verify", output::<Verified>()),
     ];
     let mut names: Vec<String> = Vec::new();

@@ -9,8 +9,9 @@ use cusp_slicer::simulation::{
     Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
 };
 
-use crate::files::{Failure, in_file};
-use crate::terminal::{Bar, print, print_json};
+use crate::failure::{Failure, in_file};
+use crate::progress::Bar;
+use crate::terminal::{print, print_json};
 use crate::values::{length, rotation};
 use crate::watch::stop_on_interrupt;
 

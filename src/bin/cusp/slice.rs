@@ -5,25 +5,24 @@ use std::path::{Path, PathBuf};
 
 use cusp_slicer::filament::FilamentReport;
 use cusp_slicer::job::{
-    Backend, BestUniform, Comparison, FrontPoint, Job, JobOptions, JobReport, Options,
-    PlannerReport, Report, StageProgress,
+    Backend, BestUniform, Job, JobReport, PlannerReport, Report, StageProgress,
 };
 use cusp_slicer::profile::Metric;
-use serde::Serialize;
 
-use crate::arguments::{Places, Settings, Slicing, Studying};
+use crate::arguments::{Settings, Slicing};
 use crate::batch::{Batch, check_inputs, outputs_in, workers};
-use crate::budget::Budget;
 use crate::export::{export, export_plugs};
-use crate::files::{Failure, Output, in_file, is_folder, is_standard, make_folder, numbered};
+use crate::failure::{Failure, in_file, is_standard};
+use crate::files::{Output, is_folder, make_folder, numbered};
 use crate::job::LoadedJob;
 use crate::job_file::JobFile;
-use crate::terminal::{Bar, duration, open_gpu, print, print_json};
+use crate::progress::Bar;
+use crate::terminal::{duration, print, print_json};
 use crate::usage::{check_json, wrong_usage};
-use crate::watch::{keep_within, stop_on_interrupt};
+use crate::watch::stop_on_interrupt;
 
 pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
-    keep_within(&slicing.budget);
+    slicing.budget.keep();
     slicing.choices.check("slice");
     check_inputs("slice", &slicing.models);
     slicing.check_meshes("slice", slicing.models.len());
@@ -65,7 +64,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
 }
 
 pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
-    keep_within(&slicing.budget);
+    slicing.budget.keep();
     slicing.choices.check("plan");
     check_inputs("plan", &slicing.models);
     slicing.check_meshes("plan", slicing.models.len());
@@ -360,111 +359,4 @@ fn describe_resin(report: &Report) -> String {
         report.adapter.as_deref().unwrap_or("the CPU"),
         report.timings_ms.total,
     )
-}
-
-/// Reads the job and runs `ask` about its first plate, which makes no plan, with a progress bar.
-fn study<T>(
-    command: &str,
-    studying: &Studying,
-    ask: impl AsyncFnOnce(
-        &mut Job,
-        &JobOptions,
-        &mut StageProgress<'_>,
-    ) -> Result<T, cusp_slicer::Error>,
-) -> Result<(T, Options), Failure> {
-    studying.choices.check(command);
-    let mut job = studying.read(command)?;
-    stop_on_interrupt();
-    if job.options.options.backend == Backend::Gpu {
-        open_gpu(&mut job.job);
-    }
-    let bar = Bar::new();
-    let mut progress = |stage, fraction| bar.report(stage, fraction);
-    let answer = pollster::block_on(ask(&mut job.job, &job.options, &mut progress));
-    let answer = answer.map_err(|error| job.failure(&error))?;
-    Ok((answer, job.options.options))
-}
-
-impl Studying {
-    /// Reads a single copy of a model, or the models of a job file.
-    fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
-        let (models, places) = (std::slice::from_ref(&self.model), Places::default());
-        LoadedJob::read(command, models, &places, &self.choices, &Budget::default())
-    }
-}
-
-pub fn tradeoff(studying: &Studying, points: usize) -> Result<(), Failure> {
-    let (curve, options) = study("tradeoff", studying, async |job, options, progress| {
-        job.tradeoff(0, options, points, progress).await
-    })?;
-    if studying.json {
-        return Ok(print_json(&curve)?);
-    }
-    let mut text = format!(
-        "tolerance     layers  largest error  time\n{:>9}",
-        options.metric.unit()
-    );
-    for point in &curve.points {
-        let _ = write!(
-            text,
-            "\n{:<12.5} {:>7}  {:<13.5}  {}",
-            point.tolerance,
-            point.layers,
-            point.max_error,
-            duration(point.print_time_s)
-        );
-    }
-    Ok(print(&text)?)
-}
-
-/// What `compare` prints as JSON.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
-pub struct Compared {
-    #[serde(flatten)]
-    comparison: Comparison,
-    front: Vec<FrontPoint>,
-}
-
-/// Numbers of layers for which `compare` shows the front.
-const FRONT_POINTS: usize = 9;
-
-pub fn compare(studying: &Studying) -> Result<(), Failure> {
-    let ((comparison, front), _) = study("compare", studying, async |job, options, progress| {
-        let comparison = job.compare(0, options, progress).await?;
-        let front = job.front(0, options, FRONT_POINTS, progress).await?;
-        Ok((comparison, front))
-    })?;
-    if studying.json {
-        return Ok(print_json(&Compared { comparison, front })?);
-    }
-    let mut text = format!(
-        "{} facets, {} mm high\nplanner      layers  largest error  time",
-        comparison.facets, comparison.height_mm
-    );
-    for row in &comparison.rows {
-        let _ = write!(
-            text,
-            "\n{:<11} {:>7}  {:<13}  {}",
-            row.planner,
-            row.layers,
-            comparison.metric.format(row.max_error),
-            duration(row.print_time_s)
-        );
-    }
-    let unit = comparison.metric.unit();
-    let _ = write!(
-        text,
-        "\n\n        least sum of volume error      smallest largest error\n\
-         layers  sum, mm³  largest error{unit:>3}    sum, mm³  largest error{unit:>3}",
-    );
-    for point in &front {
-        let (sum, maximum) = (&point.least_sum, &point.least_maximum);
-        let _ = write!(
-            text,
-            "\n{:>6}  {:<8.2}  {:<16.5}    {:<8.2}  {:.5}",
-            point.layers, sum.volume_mm3, sum.max_error, maximum.volume_mm3, maximum.max_error
-        );
-    }
-    Ok(print(&text)?)
 }

@@ -1,17 +1,13 @@
-//! Terminal output and progress.
+//! Terminal output.
 
-use std::borrow::Cow;
 use std::fmt::Display;
 use std::io::{self, IsTerminal, Write as _};
-use std::ops::ControlFlow;
 use std::sync::atomic::{AtomicBool, Ordering};
 
-use cusp_slicer::job::{Job, Stage};
-use indicatif::{ProgressBar, ProgressFinish, ProgressStyle};
+use cusp_slicer::job::Job;
 use serde::Serialize;
 
 use crate::visible::{visible, visible_lines};
-use crate::watch::{is_stopped, note_progress};
 
 /// Whether standard output carries a file, so that nothing else may go there.
 static STDOUT_IS_TAKEN: AtomicBool = AtomicBool::new(false);
@@ -108,50 +104,5 @@ impl Silence {
 impl Drop for Silence {
     fn drop(&mut self) {
         let _ = rustix::stdio::dup2_stderr(&self.stderr);
-    }
-}
-
-/// A progress bar on a terminal, hidden elsewhere. Clears its line when dropped.
-pub struct Bar {
-    bar: ProgressBar,
-}
-
-impl Bar {
-    pub fn new() -> Self {
-        const STEPS: u64 = 1000;
-        if !io::stderr().is_terminal() {
-            return Self {
-                bar: ProgressBar::hidden(),
-            };
-        }
-        let style = ProgressStyle::with_template("{msg:8} {wide_bar} {percent:>3} %")
-            .unwrap_or_else(|_| ProgressStyle::default_bar());
-        Self {
-            bar: ProgressBar::new(STEPS)
-                .with_style(style)
-                .with_finish(ProgressFinish::AndClear),
-        }
-    }
-
-    pub fn report(&self, stage: Stage, fraction: f64) -> ControlFlow<()> {
-        self.show(stage.name(), stage.done(fraction))
-    }
-
-    /// Prints without the bar in between.
-    pub fn suspend<T>(&self, print: impl FnOnce() -> T) -> T {
-        self.bar.suspend(print)
-    }
-
-    /// Shows what is being done, and which fraction of the whole task is.
-    pub fn show(&self, name: impl Into<Cow<'static, str>>, done: f64) -> ControlFlow<()> {
-        self.bar.set_message(name);
-        let steps = self.bar.length().unwrap_or_default() as f64;
-        self.bar.set_position((done * steps) as u64);
-        note_progress(done);
-        if is_stopped() {
-            ControlFlow::Break(())
-        } else {
-            ControlFlow::Continue(())
-        }
     }
 }

@@ -13,7 +13,6 @@ use std::path::Path;
 use tempfile::Builder;
 use tempfile::NamedTempFile;
 
-use crate::files::parent;
 use crate::watch::note_temporary;
 
 /// The permissions of a new file, but for those that the umask removes.
@@ -119,5 +118,13 @@ impl Write for Unfinished {
             Self::Unnamed(file) => file.flush(),
             Self::Named(file) => file.flush(),
         }
+    }
+}
+
+/// The folder that a path is in.
+pub fn parent(path: &Path) -> &Path {
+    match path.parent() {
+        Some(folder) if !folder.as_os_str().is_empty() => folder,
+        _ => Path::new("."),
     }
 }

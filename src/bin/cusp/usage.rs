@@ -2,17 +2,19 @@
 
 use std::collections::HashSet;
 use std::path::Path;
+use std::sync::OnceLock;
 use std::sync::atomic::Ordering;
 
 use clap::error::ErrorKind;
 use clap::parser::ValueSource;
-use clap::{ArgMatches, Args, Command, CommandFactory as _, FromArgMatches, Id};
-
+use clap::{ArgMatches, Args, Command, FromArgMatches, Id};
 use serde_json::Value;
 
-use crate::files::{Failed, Problem, is_standard};
+use crate::failure::{Failed, IS_JSON, Problem, is_standard};
 use crate::terminal::print_json;
-use crate::{Cli, IS_JSON};
+
+/// Makes the whole command line, whose parts describe their usage. Set once, before it is parsed.
+pub static COMMAND_LINE: OnceLock<fn() -> Command> = OnceLock::new();
 
 /// The names of arguments that are on the command line. All others have their defaults, before which a file of settings goes.
 pub struct Given(HashSet<String>);
@@ -78,7 +80,8 @@ pub fn exit(error: &clap::Error) -> ! {
 
 /// Exits with a usage error of a command.
 pub fn wrong_usage(command: &str, message: &str) -> ! {
-    let mut cli = Cli::command();
+    let make = COMMAND_LINE.get().expect("main sets it");
+    let mut cli = make();
     cli.build();
     let command = cli.find_subcommand_mut(command);
     let command = command.expect("the command that was parsed");

@@ -15,13 +15,15 @@ use serde::Serialize;
 use crate::batch::check_inputs;
 use crate::budget::Budget;
 use crate::check::{read_limits, verdict_name};
-use crate::files::{Failure, Reading, WeightsFile, in_file};
+use crate::failure::{Failure, in_file};
+use crate::files::{Reading, WeightsFile};
 use crate::job_file::{JobFile, LoadedModels};
 use crate::price::Order;
-use crate::terminal::{Bar, open_gpu, print, print_json, warn};
+use crate::progress::Bar;
+use crate::terminal::{open_gpu, print, print_json, warn};
 use crate::usage::wrong_usage;
 use crate::values::positive;
-use crate::watch::{keep_within, stop_on_interrupt};
+use crate::watch::stop_on_interrupt;
 
 /// A plan, what it was made from, and what a shop accepts.
 #[derive(Args)]
@@ -129,7 +131,7 @@ fn check_print(path: &Path, sent: &[u8], made: &[u8]) -> Result<(), Failure> {
 pub fn verify(verifying: &Verifying) -> Result<(), Failure> {
     let (plan, models) = (&*verifying.plan, &verifying.models);
     let budget = verifying.budget();
-    keep_within(&budget);
+    budget.keep();
     check_inputs("verify", models);
     let text = fs::read_to_string(plan).map_err(|error| in_file(plan, &error))?;
     let shop = verifying.shop()?;

@@ -14,9 +14,7 @@ use std::time::Instant;
 use cusp_slicer::Error;
 use cusp_slicer::job::Work;
 
-use crate::budget::Budget;
-use crate::files::Failure;
-use crate::tell;
+use crate::failure::{Failure, tell};
 
 /// Set by an interrupt; stages ask whenever they report progress.
 static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
@@ -76,9 +74,8 @@ fn handle_signals() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
 }
 
-/// From here on, what exceeds the budget stops the command.
-pub fn keep_within(budget: &Budget) {
-    let (cpu_time_s, memory_bytes) = (budget.cpu_time_s(), budget.memory_bytes());
+/// From here on, what exceeds these bounds stops the command.
+pub fn keep_within(cpu_time_s: Option<f64>, memory_bytes: Option<u64>) {
     if cpu_time_s.is_none() && memory_bytes.is_none() {
         return;
     }
@@ -164,7 +161,7 @@ pub fn is_stopped() -> bool {
 /// Why a command was stopped, in place of its own failure if it exceeded a bound.
 pub fn reason(failure: Failure) -> Failure {
     match EXCEEDED.get() {
-        Some(error) if failure.is_interrupt() => Failure::bound(error),
+        Some(error) if failure.is_interrupt() => Failure::without_file(error),
         _ => failure,
     }
 }
