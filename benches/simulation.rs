@@ -12,10 +12,10 @@ use std::path::Path;
 use std::time::Instant;
 
 use cusp_slicer::job::{Backend, Options, Planner, Stage};
-use cusp_slicer::model::{Mesh, read};
+use cusp_slicer::model::read;
 use cusp_slicer::profile::Metric;
 use cusp_slicer::progress::silent;
-use cusp_slicer::simulation::{Knowledge, simulate};
+use cusp_slicer::simulation::{Knowledge, Original, simulate};
 use slicer::Slicer;
 
 fn quiet(_: Stage, _: f64) -> ControlFlow<()> {
@@ -58,8 +58,8 @@ fn main() {
     );
     for path in std::env::args().skip(1).filter(|it| !it.starts_with('-')) {
         let bytes = std::fs::read(&path).expect("a model to read");
-        let mesh =
-            Mesh::from_triangles(&read::read(&bytes).expect("an STL").triangles).expect("a mesh");
+        let contents = read::read(&bytes).expect("an STL");
+        let originals = [Original::of(&contents).expect("a mesh")];
         let name = Path::new(&path).file_stem().unwrap_or_default();
         let mut slicer = Slicer::load(&bytes).expect("a model");
         for (plan, options) in &plans {
@@ -69,7 +69,7 @@ fn main() {
                 .write_archive(Vec::new(), &mut quiet)
                 .expect("a file");
             let clock = Instant::now();
-            let found = simulate(&mesh, &print_file, &Knowledge::default(), &mut silent);
+            let found = simulate(&originals, &print_file, &Knowledge::default(), &mut silent);
             let seconds = clock.elapsed().as_secs_f64();
             let found = found.expect("a simulation");
             let um = |mm: f64| format!("{:.1}", mm * 1000.0);

@@ -5,13 +5,12 @@ use std::fmt::Write as _;
 use crate::slicer::Slicer;
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Options, Planner};
-use cusp_slicer::model::Mesh;
 use cusp_slicer::model::read;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::normal_cones::{cones, maxima};
 use cusp_slicer::profile::{Metric, Shape, steepest};
 use cusp_slicer::progress::silent;
-use cusp_slicer::simulation::{Knowledge, simulate};
+use cusp_slicer::simulation::{Knowledge, Original, simulate};
 
 use crate::{BIN_MM, LAYER_MM, Model, mesh_of, options, quiet};
 
@@ -85,9 +84,9 @@ fn layers(model: &Model) -> (Vec<Layer>, f64) {
     let (print_file, _) = slicer
         .write_archive(Vec::new(), &mut quiet)
         .expect("a file");
-    let in_file =
-        Mesh::from_triangles(&read::read(&model.bytes).expect("an STL").triangles).expect("a mesh");
-    let simulation = simulate(&in_file, &print_file, &Knowledge::default(), &mut silent);
+    let contents = read::read(&model.bytes).expect("an STL");
+    let originals = [Original::of(&contents).expect("a mesh")];
+    let simulation = simulate(&originals, &print_file, &Knowledge::default(), &mut silent);
     let simulation = simulation.expect("a simulation");
 
     let mesh = mesh_of(model);

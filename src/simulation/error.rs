@@ -17,12 +17,22 @@ pub enum SimulationError {
     /// The print file cannot be read.
     #[error(transparent)]
     File(#[from] PrintFileError),
-    /// Several copies stand in its masks.
-    #[error("it prints {copies} copies, and one model is measured; slice it alone")]
-    Several {
-        /// Copies in its masks.
-        copies: usize,
+    /// A model stands in its masks that was not given.
+    #[error(
+        "it prints a model {model_number}, and {models} {} given; give all models in their order, or the job file",
+        if *models == 1 { "is" } else { "are" }
+    )]
+    NoModel {
+        /// The model, counted from 1.
+        model_number: usize,
+        /// Models that were given.
+        models: usize,
     },
+    /// Several models are given, and nothing says where their copies stand.
+    #[error(
+        "it does not say where its copies stand; give a job file with places, as `cusp plate` writes it"
+    )]
+    NoPlaces,
     /// A layer is not above the one before.
     #[error("its layer {layer} ends at {z_mm} mm, not above the layer below; export it again")]
     ZOrder {

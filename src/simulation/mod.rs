@@ -19,15 +19,17 @@ mod nearest;
 mod print_to_model;
 mod printed;
 
-use glam::DVec2;
+use glam::{DVec2, DVec3};
 use serde::Serialize;
 
 pub use deviation::{Deviation, LayerDeviation};
 pub use error::SimulationError;
 
-use crate::archive::read::PrintFile;
+use crate::archive::read::{PrintFile, PrintedCopy};
+use crate::arrange::TURN_DEG;
 use crate::format::Format;
-use crate::model::{Mesh, Pose};
+use crate::model::read::Contents;
+use crate::model::{FacetClass, Mesh, MeshError, ModelUnit, Pose};
 use crate::progress::{Progress, report};
 use deviation::Tally;
 use hidden::Visibility;
@@ -35,12 +37,36 @@ use nearest::Facets;
 use printed::Printed;
 
 /// What is known about a print file besides what it says. Given values take precedence over the file's.
-#[derive(Debug, Clone, Copy, Default)]
+#[derive(Debug, Clone, Default)]
 pub struct Knowledge {
-    /// How the model stands.
+    /// The pose of each model before turns.
     pub pose: Option<Pose>,
+    /// The copies in the masks, where the file does not say it.
+    pub copies: Vec<PrintedCopy>,
     /// Whether the masks are mirrored left to right.
     pub is_mirrored: Option<bool>,
+}
+
+/// A model as it is in its file.
+#[derive(Debug, Clone)]
+pub struct Original {
+    /// Its mesh, with holes capped.
+    pub mesh: Mesh,
+    /// The unit that the file states, from which the mesh was converted.
+    pub unit: Option<ModelUnit>,
+}
+
+impl Original {
+    /// The model of a file.
+    ///
+    /// # Errors
+    /// [`MeshError`].
+    pub fn of(contents: &Contents) -> Result<Self, MeshError> {
+        Ok(Self {
+            mesh: Mesh::from_triangles(&contents.triangles)?,
+            unit: contents.unit,
+        })
+    }
 }
 
 /// Where the masks are relative to the model.
@@ -48,7 +74,7 @@ pub struct Knowledge {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Placement {
-    /// The file says that the model's bounding box is at their centre.
+    /// The file says where each copy is, or the caller does: a model alone has its bounding box at their centre.
     Stated,
     /// The file does not say so, but the bounding box of lit pixels is at their centre as well, to a pixel.
     Centre,
@@ -66,7 +92,9 @@ pub struct Simulation {
     pub layers: usize,
     /// Height of the print.
     pub height_mm: f64,
-    /// Extent of the model in x, y and z, as it stands.
+    /// Number of copies of models.
+    pub copies: usize,
+    /// Extent of the model in x, y and z, as it stands; that of all copies together.
     pub model_mm: [f64; 3],
     /// Columns and rows of the masks.
     pub pixels: [u32; 2],
@@ -89,31 +117,38 @@ pub struct Simulation {
     pub model_to_print: Deviation,
 }
 
-/// Measures a print file against `model`, a mesh as it is in its file, with holes capped.
+/// Measures a print file against all models that it prints.
 ///
 /// Holds the bytes and, as runs, all masks in memory. The result does not depend on the number of threads.
 ///
 /// # Errors
 /// [`SimulationError`].
 pub fn simulate(
-    model: &Mesh,
+    models: &[Original],
     print_file: &[u8],
     knowledge: &Knowledge,
     progress: &mut Progress<'_>,
 ) -> Result<Simulation, SimulationError> {
     report(progress, 0.0)?;
     let file = PrintFile::open(print_file)?;
-    if let Some(copies) = file.copies().filter(|copies| *copies > 1) {
-        return Err(SimulationError::Several { copies });
-    }
     let mut flips = file.about().flips();
     if let Some(is_mirrored) = knowledge.is_mirrored {
         flips.mirror_x = is_mirrored;
     }
-    let pose = knowledge.pose.or(file.pose());
-    let mesh = model.on_plate(&pose.unwrap_or_default())?;
+    let stated = file.copies().unwrap_or(&knowledge.copies);
+    let is_stated = !stated.is_empty();
+    let copies = match (stated, models) {
+        ([], [_]) => &[IN_THE_MIDDLE],
+        ([], _) => return Err(SimulationError::NoPlaces),
+        _ => stated,
+    };
+    let mesh = standing(models, copies, knowledge.pose)?;
     let mut printed = Printed::read(&file, flips, progress, [0.0, 0.2])?;
-    let (placement, offset) = place(&mut printed, &mesh, file.pose().is_some());
+    let (placement, offset) = if is_stated {
+        (Placement::Stated, DVec2::ZERO)
+    } else {
+        place(&mut printed, &mesh)
+    };
 
     let mut facets = Facets::of(&mesh);
     let visibility = hidden::classify(&mesh, &facets, progress, [0.2, 0.3])?;
@@ -132,6 +167,7 @@ pub fn simulate(
         format: file.about().format,
         layers: printed.layers(),
         height_mm: printed.z_mm[printed.layers()],
+        copies: copies.len(),
         model_mm: mesh.bounds().size().to_array(),
         pixels: printed.pixels,
         pixel_mm: printed.pitch.to_array(),
@@ -145,13 +181,61 @@ pub fn simulate(
     })
 }
 
+/// A model alone, of which nothing is known.
+const IN_THE_MIDDLE: PrintedCopy = PrintedCopy {
+    model: 0,
+    pose: Pose {
+        rotation: None,
+        height_mm: None,
+        unit: None,
+    },
+    turn_deg: 0,
+    middle_mm: [0.0; 2],
+};
+
+/// All copies at their places, in one mesh.
+fn standing(
+    models: &[Original],
+    copies: &[PrintedCopy],
+    pose: Option<Pose>,
+) -> Result<Mesh, SimulationError> {
+    let placed = |copy: &PrintedCopy| {
+        let original = models.get(copy.model).ok_or(SimulationError::NoModel {
+            model_number: copy.model.saturating_add(1),
+            models: models.len(),
+        })?;
+        let pose = pose.unwrap_or(copy.pose);
+        let pose = Pose {
+            unit: pose.unit.filter(|_| original.unit.is_none()),
+            ..pose
+        };
+        let turned = pose.turned(copy.turn_deg / TURN_DEG);
+        Ok::<_, SimulationError>(original.mesh.on_plate(&turned)?)
+    };
+    if let [alone] = copies
+        && alone.middle_mm == [0.0; 2]
+    {
+        return placed(alone);
+    }
+    let mut triangles = Vec::new();
+    for copy in copies {
+        let mesh = placed(copy)?;
+        let [x_mm, y_mm] = copy.middle_mm;
+        let moved = |vertex: u32| {
+            let at = mesh.vertices[vertex as usize].as_dvec3() + DVec3::new(x_mm, y_mm, 0.0);
+            at.as_vec3()
+        };
+        let surface = mesh.of_class(FacetClass::Surface).iter();
+        triangles.extend(surface.map(|facet| facet.map(moved)));
+    }
+    Ok(Mesh::from_triangles(&triangles)?)
+}
+
 /// Moves the masks to their place, and returns what told it and how far their centre is from the model's.
-fn place(printed: &mut Printed, mesh: &Mesh, is_stated: bool) -> (Placement, DVec2) {
+fn place(printed: &mut Printed, mesh: &Mesh) -> (Placement, DVec2) {
     let bounds = mesh.bounds();
     let lit = printed.lit_centre();
-    let (placement, offset) = if is_stated {
-        (Placement::Stated, DVec2::ZERO)
-    } else if lit.abs().cmple(printed.pitch).all() {
+    let (placement, offset) = if lit.abs().cmple(printed.pitch).all() {
         (Placement::Centre, DVec2::ZERO)
     } else {
         (Placement::LitPixels, -lit)

@@ -215,9 +215,6 @@ fn the_plans_of_plates_are_verified_by_the_job_file_whole_and_one_by_one() {
     );
     assert_fails(&cusp(&["verify", &plan, &column]), 1, "give all models");
 
-    // Copies are measured one by one, as models alone.
-    let output = cusp(&["simulate", &ball, &path("print-1.zip")]);
-    assert_fails(&output, 1, "copies, and one model is measured");
     // A lie anywhere is found.
     let refuses = |change: &dyn Fn(&mut Value), words: &str| {
         let mut lie = whole.clone();

@@ -3,12 +3,11 @@
 use cusp_slicer::Options;
 use cusp_slicer::archive::read::{LayerFault, PrintFileError};
 use cusp_slicer::format::Format;
-use cusp_slicer::model::Mesh;
 use cusp_slicer::simulation::{Knowledge, Placement, SimulationError, simulate};
 use glam::Vec3;
 use std::ops::ControlFlow;
 
-use super::{by_hand, error, measured, png_of, slice, uniform, unzipped, zipped};
+use super::{by_hand, error, measured, original, png_of, slice, uniform, unzipped, zipped};
 use crate::common::assert_near;
 use crate::common::solids::{Triangles, cube, cuboid, moved};
 
@@ -244,8 +243,7 @@ fn bad_files_are_errors_that_say_what_is_wrong() {
     assert!(matches!(error(&model, &black), SimulationError::AllBlack));
     let empty = by_hand([4, 4], [0.5, 0.5], &[], |_, _, _| 127);
     assert!(matches!(error(&model, &empty), SimulationError::AllBlack));
-    let mesh = Mesh::from_triangles(&model).unwrap();
     let mut stop = |_: f64| ControlFlow::Break(());
-    let stopped = simulate(&mesh, &file, &Knowledge::default(), &mut stop);
+    let stopped = simulate(&[original(&model)], &file, &Knowledge::default(), &mut stop);
     assert!(matches!(stopped, Err(SimulationError::Cancelled(_))));
 }

@@ -15,7 +15,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::job::{Backend, Options, Planner};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::progress::silent;
-use cusp_slicer::simulation::{Knowledge, Simulation, SimulationError, simulate};
+use cusp_slicer::simulation::{Knowledge, Original, Simulation, SimulationError, simulate};
 use serde_json::{Value, json};
 use zip::ZipArchive;
 
@@ -37,9 +37,15 @@ fn slice(triangles: &Triangles, options: &Options) -> Vec<u8> {
     slicer.write_archive(Vec::new(), &mut quiet).unwrap().0
 }
 
+fn original(triangles: &Triangles) -> Original {
+    Original {
+        mesh: Mesh::from_triangles(triangles).unwrap(),
+        unit: None,
+    }
+}
+
 fn measured(triangles: &Triangles, print_file: &[u8], knowledge: &Knowledge) -> Simulation {
-    let mesh = Mesh::from_triangles(triangles).unwrap();
-    simulate(&mesh, print_file, knowledge, &mut silent).unwrap()
+    simulate(&[original(triangles)], print_file, knowledge, &mut silent).unwrap()
 }
 
 fn sliced_and_measured(triangles: &Triangles, options: &Options) -> Simulation {
@@ -47,8 +53,8 @@ fn sliced_and_measured(triangles: &Triangles, options: &Options) -> Simulation {
 }
 
 fn error(triangles: &Triangles, print_file: &[u8]) -> SimulationError {
-    let mesh = Mesh::from_triangles(triangles).unwrap();
-    simulate(&mesh, print_file, &Knowledge::default(), &mut silent).unwrap_err()
+    let originals = [original(triangles)];
+    simulate(&originals, print_file, &Knowledge::default(), &mut silent).unwrap_err()
 }
 
 /// The files of a zip.
@@ -108,6 +114,8 @@ fn by_hand(
         .collect();
     let manifest = json!({
         "options": { "rotation": null, "height_mm": null },
+        "models": [{ "model": 0, "options": {} }],
+        "placements": [{ "model": 0, "x_mm": 0.0, "y_mm": 0.0, "turn_deg": 0 }],
         "mask": {
             "width": width, "height": height, "is_mirrored": false,
             "pitch_mm": pitch_mm[0], "pitch_y_mm": pitch_mm[1],

@@ -74,7 +74,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         coding: Coding::Pw0,
         places: Places::InZip(masks.collect()),
         pictures: previews.map(Picture::Png).collect(),
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

@@ -65,7 +65,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         coding: Coding::Png,
         places: Places::InZip(masks),
         pictures: previews.map(|name| Picture::Png(name.to_owned())).collect(),
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

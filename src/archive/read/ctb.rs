@@ -78,7 +78,7 @@ pub fn read(bytes: &[u8], magic: Magic) -> Result<Contents, PrintFileError> {
         },
         places: Places::InFile(places),
         pictures,
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

@@ -51,7 +51,7 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
         },
         places: Places::InFile(places),
         pictures: vec![preview(27_108, 290), preview(194, 116)],
-        stated: None,
+        copies: None,
         findings,
     })
 }

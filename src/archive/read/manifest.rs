@@ -1,11 +1,13 @@
-//! Cusp's own zip: manifest.json says everything, the model's pose included.
+//! Cusp's own zip: manifest.json says everything, the poses and places of models included.
 
 use serde_json::Value;
 
 use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, Stated, positive};
+use super::{
+    About, Coding, Contents, Format, Layer, Places, PrintFileError, PrintedCopy, positive,
+};
 use crate::model::{ModelUnit, Pose};
 
 const FILE: &str = "manifest.json";
@@ -56,13 +58,10 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
         coding: Coding::Png,
         places: Places::InZip(masks),
         pictures: Vec::new(),
-        // A converted file has no options.
-        stated: match &manifest["options"] {
+        // A converted file has no models.
+        copies: match &manifest["models"] {
             Value::Null => None,
-            options => Some(Stated {
-                pose: pose(options).ok_or_else(|| bad("rotation"))?,
-                copies: manifest["placements"].as_array().map_or(1, Vec::len),
-            }),
+            _ => Some(copies(&manifest).ok_or_else(|| bad("placements"))?),
         },
         findings: Vec::new(),
     })
@@ -75,9 +74,35 @@ fn printer(manifest: &Value) -> Option<&str> {
     names.into_iter().find_map(Value::as_str)
 }
 
-/// The pose among the options, or `None` if its numbers are none.
-fn pose(options: &Value) -> Option<Pose> {
-    let rotation = match &options["rotation"] {
+/// The copies, or `None` if their numbers are none.
+fn copies(manifest: &Value) -> Option<Vec<PrintedCopy>> {
+    let models = manifest["models"].as_array()?;
+    let copy = |place: &Value| {
+        let model = place["model"].as_u64()?;
+        let mut models = models.iter();
+        let own = models.find(|own| own["model"].as_u64() == Some(model))?;
+        let middle_mm = [place["x_mm"].as_f64()?, place["y_mm"].as_f64()?];
+        Some(PrintedCopy {
+            model: model as usize,
+            pose: pose(&own["options"], &manifest["options"])?,
+            turn_deg: place["turn_deg"].as_u64()?.try_into().ok()?,
+            middle_mm,
+        })
+    };
+    manifest["placements"]
+        .as_array()?
+        .iter()
+        .map(copy)
+        .collect()
+}
+
+/// The pose among the options of a model, or else among those of all.
+fn pose(own: &Value, shared: &Value) -> Option<Pose> {
+    let of = |key: &str| match &own[key] {
+        Value::Null => &shared[key],
+        own => own,
+    };
+    let rotation = match of("rotation") {
         Value::Null => None,
         Value::Array(parts) => {
             let parts: Option<Vec<f64>> = parts.iter().map(Value::as_f64).collect();
@@ -85,11 +110,11 @@ fn pose(options: &Value) -> Option<Pose> {
         }
         _ => return None,
     };
-    let height_mm = match &options["height_mm"] {
+    let height_mm = match of("height_mm") {
         Value::Null => None,
         height => Some(height.as_f64()?),
     };
-    let unit = match &options["unit"] {
+    let unit = match &shared["unit"] {
         Value::Null => None,
         unit => Some(ModelUnit::named(unit.as_str()?.as_bytes())?),
     };

@@ -69,12 +69,17 @@ pub struct PrintFile<'a> {
     contents: Contents,
 }
 
-/// The models that a file says it was made of.
-#[derive(Debug, Clone, Copy)]
-struct Stated {
-    /// Pose of the first model.
-    pose: Pose,
-    copies: usize,
+/// A copy of a model in the masks.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct PrintedCopy {
+    /// The model, by its index.
+    pub model: usize,
+    /// Its pose before turns.
+    pub pose: Pose,
+    /// Turn about z after that, counter-clockwise as seen from above: a multiple of 15.
+    pub turn_deg: u32,
+    /// The middle of the box around the turned model, to the right of the middle of the masks and to its back.
+    pub middle_mm: [f64; 2],
 }
 
 /// What a format's reader finds.
@@ -84,8 +89,8 @@ struct Contents {
     coding: Coding,
     places: Places,
     pictures: Vec<Picture>,
-    /// How the model stands, if the file says so. Its bounding box is then at the centre of the masks.
-    stated: Option<Stated>,
+    /// The copies in the masks, if the file says so.
+    copies: Option<Vec<PrintedCopy>>,
     /// What is wrong besides layers and heights.
     findings: Vec<FileFinding>,
 }
@@ -168,14 +173,9 @@ impl<'a> PrintFile<'a> {
         &self.contents.layers
     }
 
-    /// How the model stands, if the file says so. Its bounding box is then at the centre of the masks.
-    pub fn pose(&self) -> Option<Pose> {
-        self.contents.stated.map(|it| it.pose)
-    }
-
-    /// Number of copies of models in the masks, if the file says so.
-    pub fn copies(&self) -> Option<usize> {
-        self.contents.stated.map(|it| it.copies)
+    /// The copies of models in the masks, if the file says so.
+    pub fn copies(&self) -> Option<&[PrintedCopy]> {
+        self.contents.copies.as_deref()
     }
 
     /// Decodes a layer as stored, and passes its runs to `sink`. They cover every pixel of the mask, unless there is an error:

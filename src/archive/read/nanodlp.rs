@@ -88,7 +88,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             .map(|name| Picture::Png(name.to_owned()))
             .into_iter()
             .collect(),
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

@@ -65,7 +65,7 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
         coding: Coding::Pw0,
         places: Places::InFile(places),
         pictures,
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

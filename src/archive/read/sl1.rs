@@ -97,7 +97,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
                 .collect(),
         ),
         pictures: previews.map(Picture::Png).collect(),
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

@@ -46,7 +46,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
                 .collect(),
         ),
         pictures: previews.map(|name| Picture::Png(name.to_owned())).collect(),
-        stated: None,
+        copies: None,
         findings: Vec::new(),
     })
 }

@@ -1,25 +1,29 @@
 //! Measures what a print file prints against the model.
 
 use std::fs;
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
-use cusp_slicer::model::{Mesh, ModelUnit, Pose, read};
+use cusp_slicer::archive::read::PrintedCopy;
+use cusp_slicer::model::read::ReadOptions;
+use cusp_slicer::model::{ModelUnit, Pose, read};
 use cusp_slicer::simulation::{
-    Deviation, Knowledge, Placement, Simulation, SimulationError, simulate as measure,
+    Deviation, Knowledge, Original, Placement, Simulation, SimulationError, simulate as measure,
 };
 
 use crate::failure::{Failure, in_file};
+use crate::job_file::JobFile;
 use crate::progress::Bar;
 use crate::terminal::{print, print_json};
 use crate::values::{length, rotation};
 use crate::watch::stop_on_interrupt;
 
-/// A model and a print file of it.
+/// Models and a print file of them.
 #[derive(Args)]
 pub struct Simulating {
-    /// Model: 3MF, OBJ or STL
-    model: PathBuf,
+    /// All models that it prints, in their order: 3MF, OBJ or STL. Or one job file of `cusp plate`
+    #[arg(required = true, value_name = "MODEL")]
+    models: Vec<PathBuf>,
     /// Print file in any format that `cusp inspect` reads, by whichever program
     #[arg(value_name = "PRINTFILE")]
     print: PathBuf,
@@ -35,44 +39,105 @@ pub struct Simulating {
     /// Unit of a model that states none, where the print file does not say it
     #[arg(long, value_enum, hide_possible_values = true, value_name = "UNIT")]
     unit: Option<ModelUnit>,
+    /// The plate of the job file, from 1, where the print file does not say where its copies stand
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
+    job_plate: u32,
     /// Whether the masks are mirrored left to right [default: what the print file says]
     #[arg(long, value_name = "BOOL")]
     mirror: Option<bool>,
 }
 
+/// What is measured.
+struct Originals {
+    paths: Vec<PathBuf>,
+    models: Vec<Original>,
+    /// Where a job file says that they stand.
+    copies: Vec<PrintedCopy>,
+}
+
+impl Originals {
+    fn read(simulating: &Simulating) -> Result<Self, Failure> {
+        let mut originals = Self {
+            paths: Vec::new(),
+            models: Vec::new(),
+            copies: Vec::new(),
+        };
+        let Some(file) = JobFile::of(&simulating.models)? else {
+            for path in &simulating.models {
+                originals.add(path.clone(), &ReadOptions::default())?;
+            }
+            return Ok(originals);
+        };
+        let folder = simulating.models[0].parent();
+        for model in &file.models {
+            let path = folder.map_or_else(|| model.file.clone(), |it| it.join(&model.file));
+            originals.add(path, &model.reading())?;
+        }
+        let on_plate = file.placements.iter();
+        let on_plate = on_plate.filter(|it| it.plate + 1 == simulating.job_plate as usize);
+        let copies = on_plate.map(|place| {
+            let own = file.models.get(place.model);
+            PrintedCopy {
+                model: place.model,
+                pose: Pose {
+                    rotation: own.and_then(|it| it.rotation).or(file.options.rotation),
+                    height_mm: own.and_then(|it| it.height_mm).or(file.options.height_mm),
+                    unit: file.options.unit,
+                },
+                turn_deg: place.turn_deg,
+                middle_mm: [place.x_mm, place.y_mm],
+            }
+        });
+        originals.copies = copies.collect();
+        Ok(originals)
+    }
+
+    fn add(&mut self, path: PathBuf, options: &ReadOptions) -> Result<(), Failure> {
+        let bytes = fs::read(&path).map_err(|error| in_file(&path, &error))?;
+        let contents = read::read_with(&bytes, options).map_err(|error| in_file(&path, &error))?;
+        let original = Original::of(&contents).map_err(|error| in_file(&path, &error))?;
+        self.models.push(original);
+        self.paths.push(path);
+        Ok(())
+    }
+
+    /// The model that a failure is about, or the job file.
+    fn path<'a>(&'a self, simulating: &'a Simulating) -> &'a Path {
+        match &self.paths[..] {
+            [only] => only,
+            _ => &simulating.models[0],
+        }
+    }
+}
+
 impl Simulating {
-    /// What is known besides the print file. A unit that the model states is already accounted for.
-    fn knowledge(&self, stated: Option<ModelUnit>) -> Knowledge {
+    /// What is known besides the print file.
+    fn knowledge(&self, copies: Vec<PrintedCopy>) -> Knowledge {
         let pose = Pose {
             rotation: self.rotation,
             height_mm: self.height,
-            unit: self.unit.filter(|_| stated.is_none()),
+            unit: self.unit,
         };
         Knowledge {
             pose: (pose != Pose::default()).then_some(pose),
+            copies,
             is_mirrored: self.mirror,
         }
     }
 }
 
 pub fn simulate(simulating: &Simulating) -> Result<(), Failure> {
-    let (model, print_file) = (&*simulating.model, &*simulating.print);
-    let bytes = fs::read(model).map_err(|error| in_file(model, &error))?;
-    let contents = read::read(&bytes).map_err(|error| in_file(model, &error))?;
-    let mesh = Mesh::from_triangles(&contents.triangles).map_err(|error| in_file(model, &error))?;
+    let print_file = &*simulating.print;
+    let mut originals = Originals::read(simulating)?;
     let printed = fs::read(print_file).map_err(|error| in_file(print_file, &error))?;
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |fraction| bar.show("simulate", fraction);
-    let simulation = measure(
-        &mesh,
-        &printed,
-        &simulating.knowledge(contents.unit),
-        &mut progress,
-    )
-    .map_err(|error| match error {
+    let knowledge = simulating.knowledge(std::mem::take(&mut originals.copies));
+    let simulation = measure(&originals.models, &printed, &knowledge, &mut progress);
+    let simulation = simulation.map_err(|error| match error {
         SimulationError::Cancelled(_) => Failure::interrupted(),
-        SimulationError::Mesh(error) => in_file(model, &error).into(),
+        SimulationError::Mesh(error) => in_file(originals.path(simulating), &error).into(),
         error => in_file(print_file, &error).into(),
     })?;
     drop(bar);
@@ -87,10 +152,11 @@ fn describe(simulation: &Simulation) -> String {
     let [pitch_x, pitch_y] = simulation.pixel_mm;
     let [size_x, size_y, size_z] = simulation.model_mm;
     let [x, y] = simulation.offset_mm;
-    let placement = match simulation.placement {
-        Placement::Stated => "centred on the masks, as the file says".to_owned(),
-        Placement::Centre => "centred on the masks, as the lit pixels are".to_owned(),
-        Placement::LitPixels => {
+    let placement = match (simulation.placement, simulation.copies) {
+        (Placement::Stated, 1) => "placed as the file says".to_owned(),
+        (Placement::Stated, copies) => format!("{copies} copies, placed as the file says"),
+        (Placement::Centre, _) => "centred on the masks, as the lit pixels are".to_owned(),
+        (Placement::LitPixels, _) => {
             format!("centred on the lit pixels; the masks' centre is {x:.3}, {y:.3} mm from there")
         }
     };
