@@ -1,13 +1,11 @@
 //! A job: options are resolved once, then the stages run in order. The result of each is an immutable value.
 
 mod calibration;
-mod check;
 mod compare;
 mod convert;
 mod error;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
-mod groups;
 mod jobs;
 mod loaded;
 mod options;
@@ -15,6 +13,8 @@ mod options_error;
 mod orient;
 mod outputs;
 mod places;
+mod plan;
+mod plates;
 mod report;
 mod resolve;
 mod shapes;
@@ -23,10 +23,8 @@ mod stages;
 mod verify;
 
 pub use calibration::{Calibration, Section};
-pub use check::{ModelPrintability, PlatePrintability};
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
-pub use groups::LayerGroups;
 pub use jobs::Job;
 pub use loaded::LoadedModel;
 pub use options::*;
@@ -34,9 +32,10 @@ pub use options_error::OptionsError;
 #[cfg(not(target_arch = "wasm32"))]
 pub use orient::OrientationPart;
 pub use orient::OrientationReport;
+pub use outputs::{ModelPrintability, PlatePrintability};
+pub use plates::LayerGroups;
 pub use report::*;
 pub use resolve::BIN_MM;
-pub use shares::{JobReport, ModelReport};
 pub use stages::prepared::{Hollowed, Supported};
 pub use stages::stage::{Stage, StageProgress};
 pub use verify::*;

@@ -414,8 +414,8 @@ impl JobOptions {
         }
     }
 
-    /// Checks that there are not too many copies, and that places are those of the copies that are asked for, plate by plate.
-    pub(super) fn check(&self) -> Result<(), ArrangeError> {
+    /// Checks that there are not too many copies.
+    pub(super) fn check_count(&self) -> Result<(), ArrangeError> {
         let of_models = self.models.iter().map(|model| model.copies);
         let copies = of_models
             .fold(0, usize::saturating_add)
@@ -427,6 +427,12 @@ impl JobOptions {
                 most_copies,
             });
         }
+        Ok(())
+    }
+
+    /// Checks that there are not too many copies, and that places are those of the copies that are asked for, plate by plate.
+    pub(super) fn check(&self) -> Result<(), ArrangeError> {
+        self.check_count()?;
         if self.placements.is_empty() {
             return Ok(());
         }

@@ -4,38 +4,46 @@ use std::io::Write;
 use std::sync::Arc;
 
 use glam::DVec2;
-use web_time::Instant;
+use serde::Serialize;
 
-use super::groups::{ENCODED_SHARE, LayerGroups};
 use super::loaded::{positions, positions_of};
-use super::stages::parts::Output;
-use super::stages::planned::{Planned, PlannedModel};
+use super::plates::{LayerGroups, Plate};
+use super::stages::planned::PlannedModel;
 use super::stages::planning::Planning;
 use super::stages::prepared::Prepared;
-use super::stages::stage::{Stage, StageProgress, ms_since, report};
+use super::stages::stage::{Stage, StageProgress, report};
 use super::{Error, Job, JobOptions, Report, Tradeoff};
-use crate::archive::layer_profile::{self, LayeredModel};
-use crate::archive::{self, Layer, Look, MaskSource, PrintJob, Screen, Standing};
-use crate::arrange::{self, ArrangeError};
-use crate::mask::{MaskCursor, PlateMasks, PlateRuns, Side, Stamp};
+use crate::arrange::{self, ArrangeError, TURN_DEG};
+use crate::inspect::{self, Limits, Printability, Verdict};
+use crate::ldi::LdiError;
 use crate::model::{FacetClass, Mesh};
 use crate::plan::Plan;
 use crate::prepare::{Shell, plugs};
 use crate::profile::{Metric, Profile, Source};
-use crate::progress::Progress;
 
-/// A plate with its plan and its report.
-#[derive(Debug)]
-pub(super) struct Plate {
-    pub planned: Arc<Planned>,
-    /// For each model of the plan, where its copies stand as seen from above.
-    pub offsets: Vec<Vec<[i32; 2]>>,
-    /// Each model before turns: on the plate, with its voids and supports.
-    pub upright: Vec<(usize, Arc<Prepared>)>,
-    pub output: Output,
-    pub report: Report,
-    /// The masks seen from above, kept for later calls, and cursors at the last layer that was read.
-    pub seen: Option<(Arc<PlateMasks>, Vec<MaskCursor>)>,
+/// Printability of a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct PlatePrintability {
+    /// The largest severity of all findings.
+    pub verdict: Verdict,
+    /// The findings on each model.
+    pub models: Vec<ModelPrintability>,
+}
+
+/// Printability of a model on a plate. Copies that stand alike are all alike.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct ModelPrintability {
+    /// The model, by its index in the job. One that also stands turned about z is there once for each turn.
+    pub model: usize,
+    /// Turn about z of the copies that it is about. Findings are at places of the turned model, as if it stood in the middle.
+    pub turn_deg: u32,
+    /// What was found on it, as if it stood alone.
+    #[serde(flatten)]
+    pub found: Printability,
 }
 
 impl Job {
@@ -123,7 +131,7 @@ impl Job {
     /// [`Error::NoPlan`], [`Error::Arrange`].
     pub fn places_mm(&self, plate: usize) -> Result<Vec<Vec<DVec2>>, Error> {
         let found = self.plate(plate)?;
-        let mask_screen = screen_of(&found.planned, &found.output);
+        let mask_screen = found.screen();
         let screen = arrange::Screen::new(mask_screen.pixels, mask_screen.pitch_mm);
         let place_mm = |&offset: &[i32; 2]| DVec2::from(screen.offset_mm(offset));
         let offsets = found.offsets.iter();
@@ -155,7 +163,7 @@ impl Job {
         Ok(largest)
     }
 
-    /// The mask of a layer of a plate: see [`MaskCursor::whole`].
+    /// The mask of a layer of a plate: see [`MaskCursor::whole`](crate::mask::MaskCursor::whole).
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::NoLayer`], [`Error::Arrange`].
@@ -203,19 +211,7 @@ impl Job {
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Arrange`].
     pub fn layer_groups(&mut self, plate: usize) -> Result<Option<LayerGroups>, Error> {
-        let plate = self.plate_mut(plate)?;
-        if plate.output.filament.is_some() || !plate.are_all_held() {
-            return Ok(None);
-        }
-        let canvas = screen_of(&plate.planned, &plate.output).canvas();
-        let layers = plate.report.layers;
-        let format = plate.output.format;
-        Ok(Some(LayerGroups::new(
-            plate.shown()?,
-            layers,
-            format,
-            canvas,
-        )))
+        self.plate_mut(plate)?.layer_groups()
     }
 
     /// Writes the print file of a plate in the format of its options. Returns the writer, and the report with the time that this
@@ -244,198 +240,40 @@ impl Job {
         writer: W,
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
-        let clock = Instant::now();
-        let plate = self.plate_mut(plate)?;
-        let encoded_share = encoded.map_or(0.0, |_| ENCODED_SHARE);
-        let mut within = |fraction| {
-            let fraction = encoded_share + (1.0 - encoded_share) * fraction;
-            progress(Stage::Masks, fraction)
-        };
-        let writer = match encoded {
-            Some(encoded) => plate.write(MaskSource::Encoded(encoded), writer, &mut within),
-            None if plate.output.filament.is_some() => {
-                plate.write_layer_profile(writer, &mut within)
-            }
-            None if plate.are_all_held() => {
-                let masks = plate.shown()?;
-                plate.write(MaskSource::Runs(&masks.runs()), writer, &mut within)
-            }
-            None => plate.write_by_slabs(writer, &mut within),
-        }?;
-        let report = &mut plate.report;
-        report.timings_ms.masks = ms_since(clock);
-        report.timings_ms.sum_up();
-        Ok((writer, report))
-    }
-}
-
-impl Plate {
-    /// Returns true if the hits of all models are kept, and with them their masks.
-    fn are_all_held(&self) -> bool {
-        let mut models = self.planned.models.iter();
-        models.all(|model| model.sampled().bound().is_none())
+        self.plate_mut(plate)?.write_file(encoded, writer, progress)
     }
 
-    /// The masks seen from above, and cursors.
-    pub(super) fn seen(&mut self) -> Result<&mut (Arc<PlateMasks>, Vec<MaskCursor>), Error> {
-        let seen = if let Some(seen) = self.seen.take() {
-            seen
-        } else {
-            let masks = self.masks(Side::Above)?;
-            let cursors = masks.stamps.iter().map(|stamp| stamp.masks.cursor());
-            let cursors = cursors.collect();
-            (Arc::new(masks), cursors)
-        };
-        Ok(self.seen.insert(seen))
-    }
-
-    /// The masks as the printer shows them.
-    fn shown(&mut self) -> Result<Arc<PlateMasks>, Error> {
-        Ok(match self.output.side() {
-            Side::Below => Arc::new(self.masks(Side::Below)?),
-            Side::Above => Arc::clone(&self.seen()?.0),
-        })
-    }
-
-    fn masks(&self, side: Side) -> Result<PlateMasks, Error> {
-        let stamps = self.offsets.iter().enumerate().map(|(model, offsets)| {
-            Ok::<_, Error>(Stamp {
-                masks: self.planned.masks(model, side)?,
-                offsets: seen_from(side, offsets),
+    /// What will fail on each model of a plate, by these limits: each is checked as if it stood alone, in the layers of the plate.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`], [`Error::Limits`], [`Error::Arrange`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn inspect(
+        &mut self,
+        plate: usize,
+        limits: &Limits,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<PlatePrintability, Error> {
+        limits.check()?;
+        let current = self.plate_mut(plate)?;
+        let planned = Arc::clone(&current.planned);
+        let (masks, _) = current.seen()?;
+        let count = planned.models.len() as f64;
+        let all = planned.models.iter().zip(&masks.stamps).enumerate();
+        let found = all.map(|(place, (model, stamp))| {
+            let mut within = |fraction| progress(Stage::Inspect, (place as f64 + fraction) / count);
+            let held = model.sampled().held(limits);
+            let found = inspect::inspect(&stamp.masks, &planned.plan, limits, &held, &mut within);
+            Ok(ModelPrintability {
+                model: model.model,
+                turn_deg: model.turns * TURN_DEG,
+                found: found.map_err(LdiError::from)?,
             })
         });
-        Ok(PlateMasks {
-            grid: self.planned.first().of.grid,
-            stamps: stamps.collect::<Result<_, _>>()?,
+        let models = found.collect::<Result<Vec<_>, Error>>()?;
+        let verdicts = models.iter().map(|model| model.found.verdict);
+        Ok(PlatePrintability {
+            verdict: verdicts.max().unwrap_or(Verdict::Ok),
+            models,
         })
-    }
-
-    fn write<W: Write>(
-        &self,
-        masks: MaskSource<'_>,
-        writer: W,
-        progress: &mut Progress<'_>,
-    ) -> Result<W, Error> {
-        let Self {
-            planned,
-            offsets,
-            output,
-            report,
-            ..
-        } = self;
-        let look = || look_of(planned, offsets);
-        write_print(planned, output, report, masks, &look, writer, progress)
-    }
-
-    /// The same of masks that are read slab by slab, as they do not fit into memory.
-    fn write_by_slabs<W: Write>(&self, writer: W, progress: &mut Progress<'_>) -> Result<W, Error> {
-        let side = self.output.side();
-        let models = 0..self.planned.models.len();
-        let apart = models.map(|model| self.planned.runs(model, side));
-        let apart = apart.collect::<Result<Vec<_>, _>>()?;
-        let runs = PlateRuns {
-            grid: self.planned.first().of.grid,
-            stamps: apart
-                .iter()
-                .zip(&self.offsets)
-                .map(|(runs, offsets)| (&**runs, seen_from(side, offsets)))
-                .collect(),
-        };
-        self.write(MaskSource::Runs(&runs), writer, progress)
-    }
-
-    /// The file for a slicer of filament printers, which places and turns models itself: of one copy of one model.
-    fn write_layer_profile<W: Write>(
-        &self,
-        writer: W,
-        progress: &mut Progress<'_>,
-    ) -> Result<W, Error> {
-        let filament = self.output.filament;
-        let filament = filament.ok_or(Error::NoPlan)?;
-        let model = LayeredModel {
-            mesh: self.planned.first().of.mesh(),
-            z_mm: &self.report.z_mm,
-            first_layer_mm: filament.first_layer_mm,
-        };
-        Ok(layer_profile::write(
-            filament.slicer,
-            &model,
-            writer,
-            progress,
-        )?)
-    }
-}
-
-/// The places of copies as they are seen from a side.
-fn seen_from(side: Side, offsets: &[[i32; 2]]) -> Vec<[i32; 2]> {
-    let offsets = offsets.iter();
-    match side {
-        Side::Above => offsets.copied().collect(),
-        Side::Below => offsets.map(|&[right, down]| [-right, down]).collect(),
-    }
-}
-
-/// The plate seen from above.
-fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
-    let mut copies = Vec::new();
-    for (model, offsets) in planned.models.iter().zip(offsets) {
-        let sampled = model.sampled();
-        let rays = sampled.sampling.samples.rays();
-        let first = sampled.grid.refined(rays).offset_of(&sampled.rays);
-        copies.extend(offsets.iter().map(|offset| Standing {
-            mesh: sampled.mesh(),
-            image: sampled.image(),
-            first_ray: [0, 1].map(|axis| {
-                i64::from(first[axis]) + i64::from(offset[axis]) * i64::from(rays[axis])
-            }),
-        }));
-    }
-    Look::of_copies(&copies)
-}
-
-/// Writes the print file of a plan that is exported as `output`, with these masks.
-///
-/// # Errors
-/// [`Error::Archive`].
-fn write_print<W: Write>(
-    planned: &Planned,
-    output: &Output,
-    report: &Report,
-    masks: MaskSource<'_>,
-    look: &dyn Fn() -> Look,
-    writer: W,
-    progress: &mut Progress<'_>,
-) -> Result<W, Error> {
-    let layers: Vec<Layer> = (0..report.layers)
-        .map(|layer| Layer {
-            z_mm: report.z_mm[layer + 1],
-            thickness_mm: report.thickness_mm[layer],
-            exposure_s: report.exposure_s[layer],
-        })
-        .collect();
-    let job = PrintJob {
-        screen: screen_of(planned, output),
-        layers: &layers,
-        masks,
-        height_mm: report.height_mm,
-        resin: &planned.layering.resin,
-        transition_layers: 0,
-        resin_ml: report.resin_ml,
-        printer: output.printer.as_deref(),
-        best_uniform: &|| planned.best_uniform(),
-        look,
-        manifest: &|| report.manifest(),
-    };
-    Ok(archive::write(output.format, &job, writer, progress)?)
-}
-
-/// The screen that shows the masks of a plan.
-fn screen_of(planned: &Planned, output: &Output) -> Screen {
-    let grid = &planned.first().of.grid;
-    Screen {
-        pixels: [grid.width, grid.height],
-        pitch_mm: [grid.pitch_mm, grid.pitch_y_mm],
-        is_mirrored: output.is_mirrored,
-        antialias: planned.first().of.sampling.samples.sublayers,
     }
 }

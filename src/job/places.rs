@@ -5,13 +5,42 @@ use std::sync::Arc;
 use super::stages::parts::{Raster, Resolved, Sampling};
 use super::stages::planned::PlannedModel;
 use super::stages::prepared::Prepared;
-use super::{Error, Job, JobOptions, Placement, Timings};
+use super::{Error, Job, JobOptions, ModelOptions, Options, Placement, Timings};
 use crate::arrange::{
     ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems, shadow_mm2,
 };
 use crate::model::{Mesh, Pose, TURNS};
 use crate::order::sort_by_number;
 use crate::parallel;
+
+/// Places of copies, before anything is sampled.
+pub(super) struct Layout {
+    pub resolved: Resolved,
+    /// The options that the report repeats.
+    pub shared: Options,
+    /// A single copy of a single model, in the middle.
+    pub is_alone: bool,
+    /// Absent for a model alone, which needs none.
+    pub screen: Option<Screen>,
+    /// Ascending by plate.
+    pub places: Vec<Place>,
+}
+
+impl Layout {
+    /// Options of a model of its own. A model alone has all options to itself.
+    pub fn own(&self, options: &JobOptions, model: usize) -> ModelOptions {
+        if self.is_alone {
+            return ModelOptions::default();
+        }
+        options.of_model(model)
+    }
+
+    /// The places of copies, plate by plate.
+    pub fn plates(&self) -> impl ExactSizeIterator<Item = &[Place]> {
+        let plates: Vec<_> = self.places.chunk_by(|a, b| a.plate == b.plate).collect();
+        plates.into_iter()
+    }
+}
 
 /// How large a model is, before turns about z.
 #[derive(Debug, Clone)]
@@ -183,19 +212,16 @@ impl Job {
         }
     }
 
-    /// What is wrong with placements: copies that extend beyond their plate, and copies that overlap.
+    /// What is wrong with the placements of these options: copies that extend beyond their plate, and copies that overlap.
     ///
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
-    pub fn problems(
-        &mut self,
-        options: &JobOptions,
-        placements: &[Placement],
-    ) -> Result<Vec<ArrangeError>, Error> {
+    pub fn problems(&mut self, options: &JobOptions) -> Result<Vec<ArrangeError>, Error> {
+        options.check_count()?;
         let resolved = options.options.resolve()?;
         let screen = screen_of(&resolved.sampling)?;
         self.prepare_silently(options, &resolved)?;
-        let places = self.places(&screen, placements)?;
+        let places = self.places(&screen, &options.placements)?;
         self.problems_of(options, &resolved, &screen, &places)
     }
 

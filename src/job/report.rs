@@ -7,15 +7,17 @@ use tsify::Tsify;
 
 use super::stages::parts::{Filament, Output};
 use super::stages::planned::Planned;
-use super::{Minimize, ModelReport, Options, Placement};
+use super::stages::prepared::{Hollowed, Supported};
+use super::{Minimize, ModelOptions, Options, Placement};
 use crate::archive::Manifest;
 use crate::filament::FilamentReport;
 use crate::format::Format;
 use crate::ldi::Solid;
 use crate::mask::black_layers;
-use crate::model::{Mesh, ModelUnit};
+use crate::model::{Mesh, ModelFile, ModelUnit};
 use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
+use crate::price::PriceItem;
 use crate::printer::{PRINTERS, Printer, Refusal, VariableLayers, are_equal, check_thicknesses};
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
@@ -640,4 +642,81 @@ fn thickness_warning(planned: &Planned, output: &Output, thickness_mm: &[f64]) -
         taker,
         best: planned.best_uniform(),
     })
+}
+
+/// A model on a plate.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
+pub struct ModelReport {
+    /// The model, by its index in the job.
+    pub model: usize,
+    /// Its file.
+    pub file: ModelFile,
+    /// Options that differ from those of the job, with its copies on this plate.
+    pub options: ModelOptions,
+    /// CRC-32 of the user's weights of its facets, if any.
+    pub weights_crc32: Option<u32>,
+    /// Copies on this plate.
+    pub copies: usize,
+    /// Extent of the model in x, y and z, before turns about z.
+    pub size_mm: [f64; 3],
+    /// Number of facets of its surface.
+    pub facets: usize,
+    /// Number of hits of rays with it, in all turns in which it stands.
+    pub hits: usize,
+    /// Layers that reach it.
+    pub layers: usize,
+    /// Volume of resin in a copy.
+    pub resin_ml: f64,
+    /// A copy's share of the print time. The time of each layer is divided among the copies that it reaches, in proportion to their
+    /// shadows on the plate.
+    pub print_time_s: f64,
+    /// The largest exact error of a layer on this model, in the metric's unit.
+    pub max_error: f64,
+    /// The largest distance from the print to this model.
+    pub max_deviation_mm: f64,
+    /// The void that was left out of a copy, if it was hollowed.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub hollowed: Option<Hollowed>,
+    /// Supports of a copy, if any.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub supported: Option<Supported>,
+    /// Warnings about this model.
+    pub warnings: Vec<Warning>,
+}
+
+/// Plates of a job, with their time and resin in all.
+#[derive(Debug, Clone, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct JobReport {
+    /// The schema version of this object: [`crate::job::SCHEMA`].
+    pub schema: u32,
+    /// Print time of all plates, one after the other.
+    pub print_time_s: f64,
+    /// Volume of resin in all copies.
+    pub resin_ml: f64,
+    /// The report of each plate.
+    pub plates: Vec<Report>,
+}
+
+impl Report {
+    /// Items of a price for `copies` prints of this plate: each copy has its share of the time.
+    pub fn price_items(&self, copies: usize) -> Vec<PriceItem> {
+        let models = self.models.iter().map(|model| PriceItem {
+            copies: model.copies.saturating_mul(copies),
+            resin_ml: model.resin_ml,
+            print_time_s: model.print_time_s,
+        });
+        models.collect()
+    }
+}
+
+impl JobReport {
+    /// Items of a price for all copies on all plates.
+    pub fn price_items(&self) -> Vec<PriceItem> {
+        let plates = self.plates.iter();
+        plates.flat_map(|plate| plate.price_items(1)).collect()
+    }
 }

@@ -4,28 +4,16 @@ use std::sync::Arc;
 
 use web_time::Instant;
 
-use super::jobs::Layout;
-use super::places::kinds;
-use super::stages::measured::Measured;
+use super::places::{Layout, kinds};
+use super::stages::measured::{Measured, Shape};
 use super::stages::memory::Memory;
 use super::stages::parts::{Layering, Resolved, Sampling};
 use super::stages::planned::Planned;
 use super::stages::prepared::{PREPARING_SHARE, Prepared};
-use super::stages::sampled::Sampled;
 use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Timings};
 use crate::parallel;
 use crate::progress::{Progress, silent};
-
-/// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
-#[derive(Debug)]
-pub(super) struct Shape {
-    pub model: usize,
-    pub turns: u32,
-    sampled: Arc<Sampled>,
-    /// Absent until the profile is made.
-    pub measured: Option<Arc<Measured>>,
-}
 
 /// A model after some turns, and how it is sampled.
 struct Wanted {
@@ -71,7 +59,7 @@ impl Job {
 
     /// The models and turns in which copies stand.
     fn wanted(&self, options: &JobOptions, layout: &Layout) -> Vec<Wanted> {
-        let kinds = kinds(layout.places()).into_iter();
+        let kinds = kinds(&layout.places).into_iter();
         let wanted = kinds.map(|(model, turns)| Wanted {
             model,
             turns,

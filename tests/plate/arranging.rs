@@ -116,7 +116,10 @@ fn arranged_copies_are_as_far_apart_as_asked_and_on_their_plate() {
                 assert!(edge_a.iter().all(|pixel| !edge_b.contains(pixel)));
             }
         }
-        assert_eq!(plate(&models).problems(&options, &found).unwrap(), []);
+        assert_eq!(
+            plate(&models).problems(&placed(&options, &found)).unwrap(),
+            []
+        );
     }
     assert!(turned > 0);
 }
@@ -151,7 +154,10 @@ fn supports_count_when_copies_are_arranged() {
             }
         }
     }
-    assert_eq!(plate(&models).problems(&options, &found).unwrap(), []);
+    assert_eq!(
+        plate(&models).problems(&placed(&options, &found)).unwrap(),
+        []
+    );
     // What overlaps by its supports alone is a problem.
     let near = [0.0, 7.2].map(|x_mm| Placement {
         model: 0,
@@ -161,8 +167,8 @@ fn supports_count_when_copies_are_arranged() {
         turn_deg: 90,
     });
     let bare = job(super::options(), &[2, 0]);
-    assert_eq!(plate(&models).problems(&bare, &near).unwrap(), []);
-    let problems = plate(&models).problems(&options, &near).unwrap();
+    assert_eq!(plate(&models).problems(&placed(&bare, &near)).unwrap(), []);
+    let problems = plate(&models).problems(&placed(&options, &near)).unwrap();
     assert!(!problems.is_empty());
 }
 
@@ -283,7 +289,7 @@ fn copies_that_overlap_or_leave_the_plate_are_found() {
     let codes = |placements: &[Placement]| {
         let options = placed(&job(options(), &[1, 1]), placements);
         let problems = plate(&[&cube, &ball])
-            .problems(&options, placements)
+            .problems(&placed(&options, placements))
             .unwrap();
         let codes: Vec<String> = problems
             .into_iter()
@@ -310,7 +316,7 @@ fn copies_that_overlap_or_leave_the_plate_are_found() {
         ["plate-outside", "plate-outside", "plate-collision"]
     );
     assert_eq!(
-        code(plate(&[&cube]).problems(&job(options(), &[1]), &[place(1, 0.0, 0.0)])),
+        code(plate(&[&cube]).problems(&placed(&job(options(), &[1]), &[place(1, 0.0, 0.0)]))),
         "plate-no-model"
     );
 }
@@ -327,7 +333,7 @@ fn every_copy_that_overlaps_is_named_and_no_more_overlaps_than_copies() {
     };
     let problems = |placements: &[Placement]| {
         let options = job(options(), &[1, 1]);
-        let found = plate(&[&cube, &ball]).problems(&options, placements);
+        let found = plate(&[&cube, &ball]).problems(&placed(&options, placements));
         found.unwrap()
     };
     // Copies are counted in the order of placements, over all plates.

@@ -8,7 +8,7 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
-    self, Calibration, Error, JobOptions, LoadedModel, Options, OptionsError, Placement, Stage,
+    self, Calibration, Error, JobOptions, LoadedModel, Options, OptionsError, Stage,
 };
 use cusp_slicer::mask::LayerRuns;
 use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
@@ -401,8 +401,7 @@ impl Job {
     #[wasm_bindgen(unchecked_return_type = "ArrangeError[]")]
     pub fn problems(&mut self, options: Ts<JobOptions>) -> Result<JsValue, JsValue> {
         let options = given(&options)?;
-        let placements: &[Placement] = &options.placements;
-        let problems = self.job.problems(&options, placements);
+        let problems = self.job.problems(&options);
         Ok(to_js(&problems.map_err(throw)?))
     }
 

@@ -1,4 +1,4 @@
-//! Import cycles among the library's modules: each imports the ones before it and nothing else.
+//! Import cycles among the modules of the library and of the command line: each imports the ones before it and nothing else.
 
 use std::{
     collections::{BTreeMap, BTreeSet},
@@ -13,13 +13,18 @@ use crate::project::Project;
 /// The modules that each module imports.
 type Graph = BTreeMap<String, BTreeSet<String>>;
 
-/// Files that may import every module: the crate's root and the command line.
-const OUTSIDE: [&str; 2] = ["lib", "bin"];
+/// Files that may import every module: the roots of crates, and the command line.
+const OUTSIDE: [&str; 3] = ["lib", "bin", "main"];
 
 /// Fails with the modules of import cycles, if there are any.
 pub fn check(project: &Project) -> Result<()> {
+    check_folder(&project.root.join("src"))?;
+    check_folder(&project.root.join("src/bin/cusp"))
+}
+
+fn check_folder(folder: &Path) -> Result<()> {
     let mut graph = Graph::new();
-    for entry in fs::read_dir(project.root.join("src"))? {
+    for entry in fs::read_dir(folder)? {
         let path = entry?.path();
         let name = path.file_stem().unwrap_or_default().to_string_lossy();
         if !OUTSIDE.contains(&&*name) {

@@ -69,3 +69,36 @@ impl Measured {
         }))
     }
 }
+
+/// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.
+#[derive(Debug)]
+pub struct Shape {
+    pub model: usize,
+    pub turns: u32,
+    pub sampled: Arc<Sampled>,
+    /// Absent until the profile is made.
+    pub measured: Option<Arc<Measured>>,
+}
+
+/// A model that a plan is made for, alone or with others.
+#[derive(Debug, Clone, Copy)]
+pub struct Part<'a> {
+    pub height_mm: f64,
+    pub shapes: &'a Shapes,
+    /// The model, by its index in the job.
+    pub model: usize,
+    /// Its own tolerance, in place of the plan's.
+    pub tolerance: Option<f64>,
+}
+
+impl<'a> Part<'a> {
+    /// A model alone.
+    pub fn alone(height_mm: f64, shapes: &'a Shapes) -> Self {
+        Self {
+            height_mm,
+            shapes,
+            model: 0,
+            tolerance: None,
+        }
+    }
+}

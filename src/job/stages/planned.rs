@@ -2,10 +2,10 @@
 
 use std::sync::Arc;
 
-use super::measured::Measured;
+use super::measured::{Measured, Part};
 use super::memory::Bound;
 use super::parts::Layering;
-use super::planning::{Findings, Part, Planning};
+use super::planning::{Findings, Planning};
 use super::sampled::Sampled;
 use crate::job::Error;
 use crate::ldi::LdiError;

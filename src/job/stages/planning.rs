@@ -2,6 +2,7 @@
 
 use std::borrow::Cow;
 
+use super::measured::Part;
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
 use crate::job::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
@@ -24,29 +25,6 @@ const UNIFORM_STEP_MM: f64 = 0.001;
 
 /// The fraction that an adaptive plan must save to be worth more than uniform layers.
 const WORTHWHILE: f64 = 0.03;
-
-/// A model that a plan is made for, alone or with others.
-#[derive(Debug, Clone, Copy)]
-pub struct Part<'a> {
-    pub height_mm: f64,
-    pub shapes: &'a Shapes,
-    /// The model, by its index in the job.
-    pub model: usize,
-    /// Its own tolerance, in place of the plan's.
-    pub tolerance: Option<f64>,
-}
-
-impl<'a> Part<'a> {
-    /// A model alone.
-    pub fn alone(height_mm: f64, shapes: &'a Shapes) -> Self {
-        Self {
-            height_mm,
-            shapes,
-            model: 0,
-            tolerance: None,
-        }
-    }
-}
 
 /// Everything that planners need to know about the models of a plan.
 pub struct Planning<'a> {

@@ -1,7 +1,7 @@
 //! Tolerances of a plan: that of the job, given or found, and those that models have of their own.
 
+use super::measured::Part;
 use super::parts::{Layering, Target};
-use super::planning::Part;
 use crate::plan::PlanError;
 use crate::plan::optimal::{self, Objective};
 use crate::plan::preferred::SnapPlanes;

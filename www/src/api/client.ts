@@ -49,8 +49,11 @@ interface Held {
   planned: Planned | null;
 }
 
-/** A question to the core about a model, by its place in the worker's job. */
-type Question<T> = (remote: Remote, place: number, progress: OnProgress) => T | Promise<T>;
+/** A question to the core about the model at the first place of the worker's job. */
+type Question<T> = (remote: Remote, progress: OnProgress) => T | Promise<T>;
+
+/** The place of a model that is alone. */
+export const ALONE = 0;
 
 export class Client {
   readonly #calls: Calls<Held>;
@@ -157,7 +160,7 @@ export class Client {
   /** The same about one model, in a worker that holds no other. */
   ask<T>(about: About, watch: Watch, question: Question<T>): Promise<T> {
     const alone = about.then((model) => [model]);
-    return this.asks(alone, watch, (remote, _, progress) => question(remote, 0, progress));
+    return this.asks(alone, watch, (remote, _, progress) => question(remote, progress));
   }
 
   /** The print file of the test towers, which needs no model. */

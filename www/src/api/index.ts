@@ -22,7 +22,7 @@
  */
 import { absentSlicer } from "./absent.js";
 import type { Compiled, WorkerHandle, Watch } from "./calls.js";
-import { Client, placeOf, type About, type Job, type Loaded as Held, type Weights } from "./client.js";
+import { ALONE, Client, placeOf, type About, type Job, type Loaded as Held, type Weights } from "./client.js";
 import { checkWhole, SlicerError } from "./error.js";
 import { measure, orient, type OrientCall as Orienting } from "./orient.js";
 import type { Helpers } from "./helpers.js";
@@ -414,36 +414,37 @@ export function createSlicer(setup: Setup = {}): Slicer {
       });
     },
     plugs: ({ model, ...watch } = {}) => main.plugs(about(model).then(({ id }) => id), watch),
-    positions: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote, place) => remote.positions(place)),
+    positions: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote) => remote.positions(ALONE)),
     async preview(options = {}, { model, ...watch } = {}) {
-      return { schema: SCHEMA, ...(await side.ask(about(model), watch, (remote, place) => remote.preview(place, options))) };
+      return { schema: SCHEMA, ...(await side.ask(about(model), watch, (remote) => remote.preview(ALONE, options))) };
     },
-    saliency: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote, place, progress) => remote.saliency(place, progress)),
+    saliency: ({ model, ...watch } = {}) => side.ask(about(model), watch, (remote, progress) => remote.saliency(ALONE, progress)),
     async setWeights(weights, { model, ...watch } = {}) {
       const before = models;
       const own: Weights = weights?.slice() ?? null;
       const changed = change(model, (entry) => ({ ...entry, weights: own }));
       changed.catch(() => undefined);
-      const painted = models;
+      const sent = main.bring(models, watch);
+      sent.catch(() => undefined);
+      const id = (await changed)?.id;
       try {
-        const sent = main.bring(painted, watch);
-        await changed;
         await sent;
       } catch (error) {
-        // Refused weights do not apply to later calls.
-        if (models === painted) models = before;
+        // Refused weights do not apply to later calls, whatever else has changed meanwhile.
+        const old = (await before).find((entry) => entry.id === id)?.weights ?? null;
+        change(id, (entry) => (entry.weights === own ? { ...entry, weights: old } : entry)).catch(() => undefined);
         throw error;
       }
     },
     async weightsFile(weights, { model, ...watch } = {}) {
-      const bytes = await side.ask(about(model), watch, (remote, place) => remote.weightsFile(place, weights));
+      const bytes = await side.ask(about(model), watch, (remote) => remote.weightsFile(ALONE, weights));
       return new Blob([bytes as Uint8Array<ArrayBuffer>]);
     },
     readWeights(source, { model, ...watch } = {}) {
       const now = about(model);
       now.catch(() => undefined);
       const named = resolve(source, watch.signal);
-      return named.then(({ file }) => side.ask(now, watch, (remote, place) => remote.readWeights(place, file)));
+      return named.then(({ file }) => side.ask(now, watch, (remote) => remote.readWeights(ALONE, file)));
     },
     async calibrateLayers(options = {}, call = {}) {
       const { blob, report } = await side.calibrateLayers(options, call);

@@ -120,9 +120,17 @@ test("a slicer without models gives its memory back", async () => {
 test("refused weights do not apply to later calls", async () => {
   const { id } = await slicer.add(file("cup"));
   await slicer.setWeights(Float32Array.of(0.5), { model: id });
-  await expect(slicer.setWeights(Float32Array.of(2), { model: id })).rejects.toMatchObject({ code: "weights-out-of-range" });
+  const tooLarge = { code: "weights-out-of-range" };
+  await expect(slicer.setWeights(Float32Array.of(2), { model: id })).rejects.toMatchObject(tooLarge);
   await slicer.plan({ tolerance: 1 });
   expect(log.at(-1)).toBe("1: plan 1 of cup*0.5");
+  // What is called before the refusal keeps its change.
+  const refused = slicer.setWeights(Float32Array.of(3), { model: id });
+  const changed = slicer.update(id, { copies: 2 });
+  await expect(refused).rejects.toMatchObject(tooLarge);
+  await changed;
+  await slicer.plan({ tolerance: 2 });
+  expect(log.at(-1)).toBe("1: plan 2 of cup*0.5×2");
 });
 
 test("a print file is named by its plate, and made from the last plan", async () => {

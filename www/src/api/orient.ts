@@ -1,7 +1,7 @@
 /** The orientation search, which the core drives: one worker of the pool holds it, and all run its tasks. */
 import { packed, unpacked, unpackedMeasured } from "./candidates.js";
 import type { Watch } from "./calls.js";
-import type { About } from "./client.js";
+import { ALONE, type About } from "./client.js";
 import type { Pool } from "./pool.js";
 import type { Candidate, Options, SearchOptions, SearchResult, SearchStep, Task, TaskResult } from "./wire.js";
 
@@ -26,7 +26,7 @@ const RATINGS = 12;
 /** Measures one direction as a search does. */
 export function measure(pool: Pool, about: About, options: Options, direction: Readonly<Candidate["direction"]>, call: Watch): Promise<Candidate> {
   return pool.run(about, call, async (team) => {
-    const results = await team.ask((remote) => remote.evaluate(0, options, [{ number: 0, directions: [[...direction]] }]));
+    const results = await team.ask((remote) => remote.evaluate(ALONE, options, [{ number: 0, directions: [[...direction]] }]));
     const [candidate] = unpackedMeasured(results[0]?.candidates ?? new Float64Array());
     if (candidate === undefined) throw new Error("the direction was not measured");
     return candidate;
@@ -38,12 +38,12 @@ export function orient(pool: Pool, about: About, options: Options, search: Searc
   return pool.run(about, call, async (team) => {
     onProgress?.("orientation", 0, 0);
     const measured = call.measured === undefined ? null : packed(call.measured);
-    const directions = await team.ask((remote) => remote.startSearch(0, options, search, measured));
+    const directions = await team.ask((remote) => remote.startSearch(ALONE, options, search, measured));
     const count = directions.length / 3;
     let rateFrom = onCandidates === undefined ? Infinity : 1;
     const { candidates, best } = await team.share({
       exchange: (remote, results: TaskResult[], most) => remote.advanceSearch(results, most, rateFrom),
-      run: (remote, tasks: Task[]) => remote.evaluate(0, options, tasks),
+      run: (remote, tasks: Task[]) => remote.evaluate(ALONE, options, tasks),
       onStep: ({ progress, measured, rated }: SearchStep) => {
         onProgress?.("orientation", progress, progress);
         if (rated === null) return;
