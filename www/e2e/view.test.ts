@@ -779,6 +779,9 @@ const printed = (page: Page): Promise<void> => page.getByRole("switch", { name: 
 test("for the printed look the view comes so near that steps can be told apart, and goes back to the chart's side", async () => {
   const page = await start({ ...WIDE, deviceScaleFactor: 1 });
   await show(page, { layer_mm: 0.05, around: 256, hasPlot: true });
+  // What is under the pointer is marked.
+  await page.mouse.move(0, 0);
+  await ready(page);
   const before = await canvas(page);
   await printed(page);
   await ready(page);
@@ -787,6 +790,7 @@ test("for the printed look the view comes so near that steps can be told apart, 
   expect(found.length).toBeGreaterThan(8);
   for (const [i, row] of found.slice(1).entries()) expect(row - (found[i] ?? 0)).toBeGreaterThanOrEqual(6);
   await printed(page);
+  await page.mouse.move(0, 0);
   await drawn(page);
   await expect.poll(async () => (await canvas(page)).equals(before)).toBe(true);
 });
