@@ -15,6 +15,13 @@ test.each([
   [{ metric: "cups", rays: 64 }, "unknown variant `cups`"],
   [{ tolerance: NaN }, "tolerance: a number is not finite"],
   [{ rays: 64.5 }, "invalid type: floating point `64.5`"],
+  [{ tolerance: "thin" }, "invalid type: string \"thin\""],
+  [{ resin: [2.5] }, "invalid type: sequence, expected struct Resin"],
+  [{ rotation: [0, 0, 0, 1, 0] }, "invalid length 5"],
+  [{ rotation: [0, 0, NaN, 1] }, "a number is not finite"],
+  [{ planner: { kind: "uniform", layer: 0.05 } }, "missing field `layer_mm`"],
+  [{ metric: { cusp: 1 } }, "invalid type: map, expected enum Metric"],
+  [{ hollow: { wall_mm: () => 2 } }, "wall_mm: a function or a symbol is no value"],
 ])("options that are misspelt are refused: %j", async (options, said) => {
   const job = jobOf(binaryStl(exampleTriangles()));
   await expect(planOf(job, options as object)).rejects.toMatchObject({ code: "bad-options", message: expect.stringContaining(said) });
