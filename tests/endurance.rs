@@ -7,7 +7,7 @@ use cusp_slicer::profile::Metric;
 use crate::common::{binary_stl, in_own_process, quiet, solids};
 
 /// Jobs, each of the next model in turn.
-const JOBS: usize = 2000;
+const JOBS: usize = 1000;
 /// After so many jobs all that is made once exists.
 const WARM: usize = 40;
 

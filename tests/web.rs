@@ -328,9 +328,10 @@ async fn a_compatible_adapter_peels() {
     let prototype = js_sys::eval("GPU.prototype").unwrap();
     js_sys::Reflect::set(&prototype, &"requestAdapter".into(), &request).unwrap();
     assert_eq!(gpu.method(), Method::Peel);
-    for triangles in [model(), solids::stack(50)] {
+    // Deep ones are tried natively, on two drivers.
+    for triangles in [model(), solids::stack(12)] {
         let mesh = on_plate(&triangles);
-        let grid = Grid::around(&mesh.bounds(), 300).unwrap();
+        let grid = Grid::around(&mesh.bounds(), 120).unwrap();
         let expected = cpu::sample(&mesh, &grid, &mut silent).unwrap();
         let method = gpu.method();
         let found = gpu::sample(&mesh, &grid, &gpu, Default::default(), method, &mut silent).await;

@@ -3,6 +3,7 @@
 use std::fmt::Display;
 use std::path::Path;
 use std::sync::atomic::{AtomicBool, Ordering};
+use std::sync::{Mutex, PoisonError};
 
 use cusp_slicer::progress::Cancelled;
 use serde::Serialize;
@@ -162,11 +163,14 @@ pub static IS_JSON: AtomicBool = AtomicBool::new(false);
 
 /// Says why a command failed, once, and returns its exit code.
 pub fn tell(failure: Failure) -> u8 {
-    static IS_TOLD: AtomicBool = AtomicBool::new(false);
+    // Held until all is written: what ends the program meanwhile waits for it.
+    static IS_TOLD: Mutex<bool> = Mutex::new(false);
     let exit_code = failure.exit_code;
-    if IS_TOLD.swap(true, Ordering::Relaxed) {
+    let mut is_told = IS_TOLD.lock().unwrap_or_else(PoisonError::into_inner);
+    if *is_told {
         return exit_code;
     }
+    *is_told = true;
     if let Some(message) = &failure.message {
         say(message);
     }
