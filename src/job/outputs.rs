@@ -205,8 +205,8 @@ impl Job {
         Ok(())
     }
 
-    /// The masks of a plate's print file in groups, for others to encode; `None` if the file has no masks, or they have to be
-    /// read slab by slab.
+    /// The masks of a plate's print file in groups, for others to encode; `None` if the file has no masks, if they have to be
+    /// read slab by slab, or if sending them takes as long as encoding them.
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Arrange`].

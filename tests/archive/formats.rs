@@ -393,7 +393,10 @@ fn a_file_is_the_same_wherever_its_layers_are_encoded() {
             let mut slicer = Slicer::load(&binary_stl(&ball)).unwrap();
             pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
             let (expected, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
-            let mut groups = slicer.layer_groups().unwrap().unwrap();
+            let Some(mut groups) = slicer.layer_groups().unwrap() else {
+                assert!(!format.is_zip(), "{format:?}");
+                continue;
+            };
             assert!(groups.left() > 2, "{format:?}");
             let (canvas, named) = (groups.canvas, groups.format);
             let sent: Vec<Vec<u32>> = groups.by_ref().map(|runs| runs.to_words()).collect();

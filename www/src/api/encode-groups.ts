@@ -13,27 +13,34 @@ export function isLong(groups: LayerGroups): boolean {
   return groups.left() >= FEWEST_GROUPS;
 }
 
-/** The encoded groups, in order. What the helpers do not encode, this worker does. */
+/**
+ * The encoded groups, in order. What the helpers do not encode, this worker does: also what they have not sent back when all else is
+ * done, as one that has just started may take longer than the rest of the file.
+ */
 export async function encodeGroups(groups: LayerGroups, helpers: number, help: Help, progress: OnProgress): Promise<Uint8Array[]> {
   const format = groups.format();
   const canvas = groups.canvas();
   const encoded: Uint8Array[] = [];
-  const awaited = new Set<Promise<void>>();
+  const awaited = new Map<number, Uint32Array>();
   for (let group = 0, runs = groups.next_runs(); runs !== undefined; group++, runs = groups.next_runs()) {
-    const of = runs;
     if (awaited.size < STOCK * helpers && groups.left() > 0) {
-      const answer = help(format, canvas, of).then((bytes) => {
-        encoded[group] = bytes ?? encode_group(format, canvas, of);
-        awaited.delete(answer);
+      awaited.set(group, runs);
+      void help(format, canvas, runs).then((bytes) => {
+        if (bytes === null || !awaited.delete(group)) return;
+        encoded[group] = bytes;
       });
-      awaited.add(answer);
     } else {
-      encoded[group] = encode_group(format, canvas, of);
+      encoded[group] = encode_group(format, canvas, runs);
     }
     groups.report(progress);
     await messages();
   }
-  await Promise.all(awaited);
+  // From the last on: helpers have begun with the first.
+  for (const [group, runs] of [...awaited].reverse()) {
+    if (!awaited.delete(group)) continue;
+    encoded[group] = encode_group(format, canvas, runs);
+    await messages();
+  }
   return encoded;
 }
 
