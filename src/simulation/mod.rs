@@ -26,10 +26,9 @@ pub use deviation::{Deviation, LayerDeviation};
 pub use error::SimulationError;
 
 use crate::archive::read::{PrintFile, PrintedCopy};
-use crate::arrange::TURN_DEG;
 use crate::format::Format;
 use crate::model::read::Contents;
-use crate::model::{FacetClass, Mesh, MeshError, ModelUnit, Pose};
+use crate::model::{FacetClass, Mesh, MeshError, ModelUnit, Pose, TURNS};
 use crate::progress::{Progress, report};
 use deviation::Tally;
 use hidden::Visibility;
@@ -209,7 +208,7 @@ fn standing(
             unit: pose.unit.filter(|_| original.unit.is_none()),
             ..pose
         };
-        let turned = pose.turned(copy.turn_deg / TURN_DEG);
+        let turned = pose.turned(copy.turn_deg % 360 * TURNS / 360);
         Ok::<_, SimulationError>(original.mesh.on_plate(&turned)?)
     };
     if let [alone] = copies

@@ -58,3 +58,22 @@ fn every_command_has_a_manual_page() {
         "at the end of its name makes one",
     );
 }
+
+#[test]
+fn schemas_are_printed_by_name_and_written_all() {
+    let folder = TempDir::new().unwrap();
+    let path = folder.path().display().to_string();
+    assert!(cusp(&["schema", "-o", &path]).status.success());
+    let files = names(&folder);
+    assert!(files.len() >= 25, "{files:?}");
+    for file in files {
+        let written = std::fs::read(folder.path().join(&file)).unwrap();
+        let schema: serde_json::Value = serde_json::from_slice(&written).unwrap();
+        assert_eq!(schema["$schema"], "http://json-schema.org/draft-07/schema#");
+        let name = file.strip_suffix(".schema.json").unwrap();
+        let printed = cusp(&["schema", name]).stdout;
+        assert_eq!(printed.trim_ascii_end(), written.trim_ascii_end(), "{name}");
+    }
+    assert_fails(&cusp(&["schema", "plans"]), 2, "'plan'");
+    assert_fails(&cusp(&["schema"]), 2, "<NAME>");
+}

@@ -108,6 +108,12 @@ pub fn default_arranging() -> JsValue {
     to_js(&Arranging::default())
 }
 
+/// Thresholds of a check by default.
+#[wasm_bindgen(unchecked_return_type = "Required<Limits>")]
+pub fn default_limits() -> JsValue {
+    to_js(&Limits::default())
+}
+
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several jobs with
 /// the same model and options may run its tasks.
 #[wasm_bindgen]
@@ -524,8 +530,7 @@ impl Job {
     /// Throws a `CuspError` if there is no plan or no such plate.
     pub fn layer_groups(&mut self, plate: usize) -> Result<Option<LayerGroups>, JsValue> {
         let groups = self.job.layer_groups(plate).map_err(throw)?;
-        let worthwhile = groups.filter(|groups| groups.format.is_zip());
-        Ok(worthwhile.map(|groups| LayerGroups { groups }))
+        Ok(groups.map(|groups| LayerGroups { groups }))
     }
 
     /// Writes the print file of a plate in the format of its options, by calling `take` with one chunk after another. `encoded`, if

@@ -30,8 +30,7 @@ pub trait Told: Serialize + Send {
 }
 
 /// What a batch prints of a model as JSON: one line.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct BatchLine<T> {
     /// Path of the model, as it was given.
     model: String,
@@ -44,8 +43,7 @@ pub struct BatchLine<T> {
 }
 
 /// What became of a model of a batch.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Outcome<T> {
     /// What the command prints of a single model.

@@ -75,8 +75,7 @@ impl Calibrating {
 }
 
 /// A calibration print that was written.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Calibrated {
     pub print_time_s: f64,
 }

@@ -30,8 +30,7 @@ pub struct Checking {
 }
 
 /// The JSON of `check`.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Checked {
     /// The largest severity of all findings.
     verdict: Verdict,
@@ -42,8 +41,7 @@ pub struct Checked {
 }
 
 /// A plate that was checked.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 struct CheckedPlate {
     #[serde(flatten)]
     printability: PlatePrintability,

@@ -33,8 +33,7 @@ pub struct Contouring {
 }
 
 /// The JSON of `contours`.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Contoured {
     /// The contours of each plate.
     plates: Vec<ContoursReport>,

@@ -47,8 +47,7 @@ pub struct Converting {
 }
 
 /// A print file that was made from another.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Converted {
     pub format: Format,
     /// The printer that it is for, if it is known.

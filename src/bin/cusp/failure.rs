@@ -25,8 +25,7 @@ pub struct Failure {
 }
 
 /// What failed, for programs.
-#[derive(Debug, Clone, Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Problem {
     /// The code of the library's error; `file` if a file cannot be read or written, `usage` if the command line is wrong.
     pub code: String,
@@ -56,8 +55,7 @@ impl Problem {
 }
 
 /// What a command prints in JSON when it fails.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Failed {
     /// Why.
     pub error: Problem,

@@ -13,8 +13,7 @@ use crate::failure::{Failure, is_standard};
 use crate::files::{Reading, WeightsFile, read_json};
 
 /// A job file: models, options and places. Paths are relative to the file.
-#[derive(Default, Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Default, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobFile {
     /// The models.
@@ -31,8 +30,7 @@ pub struct JobFile {
 }
 
 /// A model of a job file.
-#[derive(Serialize, Deserialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobModel {
     /// The file.

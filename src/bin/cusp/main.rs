@@ -20,7 +20,6 @@ mod packaging;
 mod plate;
 mod price;
 mod progress;
-#[cfg(test)]
 mod schemas;
 mod simulate;
 mod slice;
@@ -157,6 +156,15 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
+    /// Print the JSON Schema of what a command prints, or of a file that it reads
+    Schema {
+        /// What it describes
+        #[arg(value_parser = schemas::schema_name(), required_unless_present = "output")]
+        name: Option<String>,
+        /// Where to write all of them, as plan.schema.json and so on
+        #[arg(short, long, value_name = "FOLDER", conflicts_with = "name")]
+        output: Option<PathBuf>,
+    },
     /// Print the completions for a shell
     Completions {
         /// The shell
@@ -204,6 +212,7 @@ fn main() -> ExitCode {
             reading,
             json,
         } => models::info(&models, &reading.options(), json),
+        Command::Schema { name, output } => schemas::schema(name.as_deref(), output.as_deref()),
         Command::Completions { shell } => packaging::completions(Cli::command(), shell),
         Command::Man { output } => packaging::man(Cli::command(), output.as_deref()),
     };

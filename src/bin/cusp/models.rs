@@ -57,8 +57,7 @@ fn describe_mesh(info: &MeshInfo) -> String {
 }
 
 /// A file of weights that was written.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Weighed {
     /// Facets of the surface, each with a weight.
     pub facets: usize,

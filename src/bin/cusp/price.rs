@@ -31,8 +31,7 @@ pub struct Pricing {
 }
 
 /// What `price` prints as JSON.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Priced {
     /// What all copies cost.
     #[serde(flatten)]

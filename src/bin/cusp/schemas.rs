@@ -1,9 +1,9 @@
-//! The schemas of what `--json` prints, recorded in docs/schemas. `tests/interop/cluster/test_schemas.py` holds real output to them.
+//! Schemas of what `--json` prints and of the files that users write. `tests/interop/cluster/test_schemas.py` holds real output to them.
 
 use std::path::Path;
 use std::sync::Arc;
 
-use crate::contours::Contoured;
+use clap::builder::PossibleValuesParser;
 use cusp_slicer::archive::read::Inspection;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{JobReport, MeshInfo, Options, OrientationReport, Report, Tradeoff};
@@ -18,12 +18,15 @@ use serde_json::{Value, json};
 use crate::batch::BatchLine;
 use crate::calibrate::Calibrated;
 use crate::check::Checked;
+use crate::contours::Contoured;
 use crate::convert::Converted;
-use crate::failure::Failed;
+use crate::failure::{Failed, Failure};
+use crate::files::{Output, make_folder};
 use crate::job_file::JobFile;
 use crate::models::Weighed;
 use crate::price::Priced;
 use crate::study::{ComparedPlate, Studied};
+use crate::terminal::print;
 use crate::verify::Verified;
 
 /// Draft 7, which most validators know.
@@ -44,18 +47,20 @@ fn input<T: JsonSchema>() -> Value {
         .to_value()
 }
 
-/// A report without what depends on the machine.
+/// A report without what depends on the machine, and its layers.
 fn manifest() -> Value {
     let mut schema = output::<Report>();
     let is_kept = |key: &str| !cusp_slicer::job::OF_THE_MACHINE.contains(&key);
-    let properties = schema["properties"].as_object_mut().unwrap();
-    properties.retain(|key, _| is_kept(key));
-    let required = schema["required"].as_array_mut().unwrap();
-    required.retain(|key| key.as_str().is_some_and(is_kept));
-    schema["definitions"]
-        .as_object_mut()
-        .unwrap()
-        .remove("Timings");
+    if let Some(properties) = schema["properties"].as_object_mut() {
+        properties.retain(|key, _| is_kept(key));
+    }
+    if let Some(definitions) = schema["definitions"].as_object_mut() {
+        definitions.remove("Timings");
+    }
+    if let Some(required) = schema["required"].as_array_mut() {
+        required.retain(|key| key.as_str().is_some_and(is_kept));
+        required.push(json!("layer_files"));
+    }
     let number = |description: &str| json!({ "description": description, "type": "number" });
     schema["definitions"]["LayerEntry"] = json!({
         "description": "A layer of the print file.",
@@ -79,8 +84,6 @@ fn manifest() -> Value {
         "type": "array",
         "items": { "$ref": "#/definitions/LayerEntry" },
     });
-    let required = schema["required"].as_array_mut().unwrap();
-    required.push(json!("layer_files"));
     schema["title"] = json!("Manifest");
     schema["description"] = json!(
         "What `manifest.json` in a zip of masks says: a report without what depends on the machine, and the layers."
@@ -106,58 +109,62 @@ fn settings() -> Value {
     schema
 }
 
-/// BLESS=1 records them again.
-#[test]
-fn the_schemas_of_reports_are_recorded() {
-    let folder = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/schemas");
-    let schemas = [
-        ("batch-info", output::<BatchLine<MeshInfo>>()),
-        ("batch-plan", output::<BatchLine<JobReport>>()),
-        ("calibrate", output::<Calibrated>()),
-        ("check", output::<Checked>()),
-        ("compare", output::<Studied<ComparedPlate>>()),
-        ("contours", output::<Contoured>()),
-        ("convert", output::<Converted>()),
-        ("error", output::<Failed>()),
-        ("info", output::<MeshInfo>()),
-        ("inspect", output::<Inspection>()),
-        ("limits", input::<Limits>()),
-        ("manifest", manifest()),
-        ("orient", output::<OrientationReport>()),
-        ("plan", output::<JobReport>()),
-        ("plate", input::<JobFile>()),
-        ("price", output::<Priced>()),
-        ("prices", input::<Prices>()),
-        ("printer", input::<Printer>()),
-        ("printers", output::<Vec<Arc<Printer>>>()),
-        ("resin", input::<Resin>()),
-        ("saliency", output::<Weighed>()),
-        ("settings", settings()),
-        ("simulate", output::<Simulation>()),
-        ("tradeoff", output::<Studied<Tradeoff>>()),
-        ("verify", output::<Verified>()),
-    ];
-    let mut names: Vec<String> = Vec::new();
-    for (name, schema) in schemas {
-        let schema = Schema::try_from(schema).unwrap();
-        let text = serde_json::to_string_pretty(&schema).unwrap() + "\n";
-        let name = format!("{name}.schema.json");
-        let path = folder.join(&name);
-        if std::env::var_os("BLESS").is_some() {
-            std::fs::create_dir_all(&folder).unwrap();
-            std::fs::write(&path, &text).unwrap();
+/// Makes a schema.
+type Make = fn() -> Value;
+
+/// The names of schemas, and what makes each.
+const SCHEMAS: [(&str, Make); 25] = [
+    ("batch-info", output::<BatchLine<MeshInfo>>),
+    ("batch-plan", output::<BatchLine<JobReport>>),
+    ("calibrate", output::<Calibrated>),
+    ("check", output::<Checked>),
+    ("compare", output::<Studied<ComparedPlate>>),
+    ("contours", output::<Contoured>),
+    ("convert", output::<Converted>),
+    ("error", output::<Failed>),
+    ("info", output::<MeshInfo>),
+    ("inspect", output::<Inspection>),
+    ("limits", input::<Limits>),
+    ("manifest", manifest),
+    ("orient", output::<OrientationReport>),
+    ("plan", output::<JobReport>),
+    ("plate", input::<JobFile>),
+    ("price", output::<Priced>),
+    ("prices", input::<Prices>),
+    ("printer", input::<Printer>),
+    ("printers", output::<Vec<Arc<Printer>>>),
+    ("resin", input::<Resin>),
+    ("saliency", output::<Weighed>),
+    ("settings", settings),
+    ("simulate", output::<Simulation>),
+    ("tradeoff", output::<Studied<Tradeoff>>),
+    ("verify", output::<Verified>),
+];
+
+/// Completes and checks the name of a schema.
+pub fn schema_name() -> PossibleValuesParser {
+    PossibleValuesParser::new(SCHEMAS.map(|(name, _)| name))
+}
+
+/// Prints the schema with this name, or writes all to a folder, as `plan.schema.json`.
+pub fn schema(name: Option<&str>, folder: Option<&Path>) -> Result<(), Failure> {
+    if let Some(folder) = folder {
+        make_folder(folder)?;
+        for (name, make) in SCHEMAS {
+            let file = folder.join(format!("{name}.schema.json"));
+            Output::new(&file, None, "")?.write_bytes(text(make)?.as_bytes())?;
         }
-        let recorded = std::fs::read_to_string(&path).unwrap_or_default();
-        assert!(
-            recorded == text,
-            "run again with BLESS=1: {}",
-            path.display()
-        );
-        names.push(name);
+        return Ok(());
     }
-    let files = std::fs::read_dir(&folder).unwrap();
-    let files = files.map(|file| file.unwrap().file_name().into_string().unwrap());
-    let mut files: Vec<String> = files.collect();
-    files.sort();
-    assert_eq!(files, names);
+    for (_, make) in SCHEMAS.iter().filter(|(of, _)| Some(*of) == name) {
+        print(text(*make)?.trim_end())?;
+    }
+    Ok(())
+}
+
+fn text(make: Make) -> Result<String, String> {
+    // Its keys in the order that schemas have.
+    let schema = Schema::try_from(make()).map_err(|error| error.to_string())?;
+    let text = serde_json::to_string_pretty(&schema).map_err(|error| error.to_string())?;
+    Ok(text + "\n")
 }

@@ -14,16 +14,14 @@ use crate::terminal::{duration, open_gpu, print, print_json};
 use crate::watch::stop_on_interrupt;
 
 /// The JSON of a command that studies plates.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Studied<T> {
     /// The answer for each plate.
     plates: Vec<T>,
 }
 
 /// The planners of a plate.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct ComparedPlate {
     #[serde(flatten)]
     comparison: Comparison,

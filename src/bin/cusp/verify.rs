@@ -91,8 +91,7 @@ impl Shop<'_> {
 }
 
 /// A plate whose plan matches.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 struct VerifiedPlate {
     layers: usize,
     max_error: f64,
@@ -107,8 +106,7 @@ struct VerifiedPlate {
 }
 
 /// The result of a successful verification.
-#[derive(Serialize)]
-#[cfg_attr(test, derive(schemars::JsonSchema))]
+#[derive(Serialize, schemars::JsonSchema)]
 pub struct Verified {
     /// Print time of these plates, one after the other.
     print_time_s: f64,

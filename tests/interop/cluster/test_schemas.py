@@ -1,4 +1,4 @@
-"""Holds what every command prints as JSON to the schemas in docs/schemas, by a validator that shares nothing with their writer.
+"""Holds what every command prints as JSON to what `cusp schema` says of it, by a validator that shares nothing with their writer.
 
     CUSP=PATH/OF/cusp python -m unittest -v test_schemas
 """
@@ -17,7 +17,7 @@ import fastjsonschema
 
 from common import CUSP, PATIENCE, write_frustum
 
-SCHEMAS = Path(__file__).parents[3] / "docs" / "schemas"
+DOCS = Path(__file__).parents[3] / "docs"
 
 
 class Schemas(unittest.TestCase):
@@ -43,7 +43,7 @@ class Schemas(unittest.TestCase):
         return self.cusp(*arguments, "--pitch=0.1", "--backend=cpu", "--json", code=code)
 
     def check(self, name: str, text: str) -> Any:
-        schema = json.loads((SCHEMAS / f"{name}.schema.json").read_text())
+        schema = json.loads(self.cusp("schema", name))
         validate, found = fastjsonschema.compile(schema), json.loads(text)
         validate(found)
         self.check_strict(schema, validate, found)
@@ -101,7 +101,7 @@ class Schemas(unittest.TestCase):
         limits, prices = self.folder / "limits.json", self.folder / "prices.json"
         limits.write_text('{ "severity": { "loose-body": "review", "trap": "review" } }')
         self.check("limits", limits.read_text())
-        document = (SCHEMAS.parent / "price.md").read_text()
+        document = (DOCS / "price.md").read_text()
         prices.write_text(document.split("```json\n")[1].split("```")[0])
         self.check("prices", prices.read_text())
         return [f"--limits={limits}", f"--prices={prices}"]

@@ -1,11 +1,12 @@
-import { readFile } from "node:fs/promises";
-import { expect, test } from "vitest";
+import { beforeAll, expect, test } from "vitest";
+import { default_limits } from "../../../pkg/cusp_slicer.js";
+import { startCore } from "../../api/core.node-fixture.js";
 import { WALL_MM, wallScale } from "./scale.js";
 
-test("walls are marked from the thickness that the core takes for thin where a shop says nothing", async () => {
-  const source = await readFile(new URL("../../../../docs/schemas/limits.schema.json", import.meta.url), "utf8");
-  const schema = JSON.parse(source) as { properties: { wall_mm: { default: number } } };
-  expect(WALL_MM).toBe(schema.properties.wall_mm.default);
+beforeAll(startCore);
+
+test("walls are marked from the thickness that the core takes for thin where a shop says nothing", () => {
+  expect(WALL_MM).toBe(default_limits().wall_mm);
 });
 
 test("the scale ends at ten times the limit, also of a shop without one", () => {
