@@ -2,7 +2,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
-import { downloaded, drop, layers, openPanel, settled, SOFTWARE_GL, state } from "./browser.js";
+import { downloaded, drop, layers, openPanel, settled, SOFTWARE_GL, state, type DroppedFile } from "./browser.js";
 import { pages } from "./pages.js";
 import { cup, prism, sphere } from "./solids.js";
 
@@ -165,6 +165,27 @@ test("the thickness of walls is shown by keyboard, and ends where other colours 
   await scale.waitFor({ state: "detached" });
   await openPanel(page, "Check");
   expect(await toggle.isChecked()).toBe(false);
+});
+
+test("on a plate the walls are those of the selected model, which is seen alone meanwhile", async () => {
+  const page = await start("?backend=cpu&printer=mars-4-ultra", SMALL);
+  const mug = (name: string, wall_mm: number): DroppedFile => ({ name, bytes: cup(10, 8, wall_mm) });
+  await drop(page, mug("thick.stl", 1.5), mug("thin.stl", 0.75));
+  await state(page, "done");
+  await openPanel(page, "Check");
+  const toggle = page.getByRole("switch", { name: "Show wall thickness" });
+  const view = page.locator("cusp-view");
+  const copies = (): Promise<number> => view.evaluate((view: CuspView) => view.copies.length);
+  await expect.poll(copies).toBe(2);
+  await toggle.check();
+  await page.locator("cusp-view .legend.walls").waitFor();
+  expect(await copies()).toBe(0);
+  const thinnest = (): Promise<number> => view.evaluate((view: CuspView) => Math.min(...(view.walls?.thickness_mm ?? [0])));
+  const first_mm = await thinnest();
+  await page.locator("cusp-plate button.name", { hasText: first_mm > 1 ? "thin.stl" : "thick.stl" }).click();
+  await expect.poll(thinnest).toBeCloseTo(first_mm > 1 ? 0.75 : 1.5, 3);
+  await toggle.uncheck();
+  await expect.poll(copies).toBe(2);
 });
 
 test("on the smallest phone an open sheet leaves the view its room, and has some itself", async () => {

@@ -16,7 +16,6 @@ export function findingsPanel({ element, session, language, panels }: Facts): Te
     .isCurrent=${checks.isCurrent}
     .error=${checks.error}
     .chosen=${checks.chosen}
-    .isAlone=${!session.plate.isSeveral}
     .hasView=${panels.has("view")}
     .showsWalls=${checks.showsWalls}
     .wall_mm=${checks.wall_mm}

@@ -37,9 +37,7 @@ const PROPERTIES = {
   /** Why the plan could not be checked. */
   error: given<SlicerError | null>(null),
   chosen: given<Finding | null>(null),
-  /** Whether the plan is that of a single model, whose walls can be shown. */
-  isAlone: given(true),
-  /** Whether there is a view to show how thick walls are. */
+  /** Whether there is a view to show how thick the walls of the selected model are. */
   hasView: given(true),
   showsWalls: given(false),
   /** What counts as a thin wall, mm. */
@@ -73,7 +71,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     return html`
       <div class="head"><h3>${language.texts.findings.title}</h3></div>
       <div role="status">${this.#verdict(words)}</div>
-      ${this.hasView && this.isAlone ? this.#walls(words) : nothing}
+      ${this.hasView ? this.#walls(words) : nothing}
       ${verdict === null || error !== null
         ? nothing
         : html`<div class="kinds ${isCurrent ? "" : "old"}" @keydown=${this.#pressed}>

@@ -173,9 +173,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const isPainting = tool === "paint";
     const isPlacing = places(tool);
     const isEditing = isPainting || isPlacing;
-    // A model is edited alone; its copies follow.
-    const isPlate = this.copies.length > 0 && !isEditing;
-    const walls_mm = isEditing || isPlate ? null : this.walls_mm;
+    const walls_mm = isEditing ? null : this.walls_mm;
+    // A model is edited alone, and so are its walls seen; its copies follow.
+    const isPlate = this.copies.length > 0 && !isEditing && walls_mm === null;
     const isMeasured = this.look === "distance" && !isEditing && walls_mm === null;
     const isPrinted = isMeasured || (this.look === "printed" && !isEditing && walls_mm === null);
     // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, no
