@@ -57,7 +57,7 @@ impl FilamentSlicer {
         }
     }
 
-    /// Whether it is known that they print the layers of a plan as they are: for `PrusaSlicer`, tests compare them.
+    /// Returns true if it is known that they print the layers of a plan as they are: for `PrusaSlicer`, tests compare them.
     pub fn is_tried(self) -> bool {
         self == Self::Prusa
     }
@@ -99,7 +99,7 @@ pub struct FilamentReport {
     /// What the programs call it in English, with the way to it; for sentences.
     #[serde(skip)]
     pub setting: &'static str,
-    /// Whether it is known that they print these layers as they are.
+    /// True if it is known that they print these layers as they are.
     pub is_tried: bool,
 }
 

@@ -60,12 +60,12 @@ impl Format {
         Self::MASKS.into_iter().chain(Self::FILAMENT)
     }
 
-    /// Whether its files hold masks, for resin printers.
+    /// Returns true if its files hold masks, for resin printers.
     pub fn has_masks(self) -> bool {
         Self::MASKS.contains(&self)
     }
 
-    /// Whether its files are zips of masks, each deflated: that takes much longer than reading their runs.
+    /// Returns true if its files are zips of masks, each deflated: that takes much longer than reading their runs.
     pub fn is_zip(self) -> bool {
         self.has_masks() && !matches!(self, Self::Goo | Self::PhotonWorkshop | Self::Ctb)
     }

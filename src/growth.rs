@@ -58,7 +58,7 @@ impl Growth {
         }
     }
 
-    /// Whether masks need no change.
+    /// Returns true if masks need no change.
     pub fn is_none(&self) -> bool {
         self.xy_mm == 0.0 && self.bottom_mm() == 0.0 && self.z_mm == 0.0
     }

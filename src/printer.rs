@@ -33,7 +33,7 @@ pub struct Printer {
     pub pitch_um: [f64; 2],
     /// Build volume in x, y and z, in millimetres.
     pub volume_mm: [f64; 3],
-    /// Whether masks are mirrored left to right, because the screen lights the resin from below.
+    /// True if masks are mirrored left to right, because the screen lights the resin from below.
     #[serde(default = "yes")]
     pub is_mirrored: bool,
     /// Minimum and maximum layer thickness in millimetres.
@@ -48,19 +48,19 @@ pub struct Printer {
     /// The version of that format, where it has several: 516, 517 or 518 of `photon-workshop`.
     #[serde(default)]
     pub file_version: Option<u32>,
-    /// Whether numbers in its files begin with the lowest byte, unlike those of other printers.
+    /// True if numbers in its files begin with the lowest byte, unlike those of other printers.
     #[serde(default)]
     pub is_little_endian: bool,
-    /// Whether the vat tilts to release a layer, in place of a lift.
+    /// True if the vat tilts to release a layer, in place of a lift.
     #[serde(default)]
     pub has_tilting_vat: bool,
-    /// Whether it reads `format` without a converter.
+    /// True if it reads `format` without a converter.
     #[serde(default = "yes")]
     pub reads_format: bool,
     /// Extensions of the files that it reads, the most common first.
     #[serde(default)]
     pub reads: Vec<String>,
-    /// Whether it prints layers of several thicknesses.
+    /// True if it prints layers of several thicknesses.
     #[serde(default)]
     pub variable_layers: VariableLayers,
     /// Where that is known from.
@@ -158,7 +158,7 @@ impl Printer {
     }
 }
 
-/// Whether this can end the name of a file: no path, no dot.
+/// Returns true if this can end the name of a file: no path, no dot.
 fn is_extension(text: &str) -> bool {
     !text.is_empty()
         && text
@@ -175,7 +175,7 @@ pub enum Refusal<'a> {
     Printer(&'a Printer),
 }
 
-/// Whether a file of `format` for `printer` can have layers of these thicknesses.
+/// Checks that a file of `format` for `printer` can have layers of these thicknesses.
 ///
 /// # Errors
 /// [`Refusal`].
@@ -200,7 +200,7 @@ pub fn check_thicknesses<'a>(
     }
 }
 
-/// Whether all layers have the same thickness.
+/// Returns true if all layers have the same thickness.
 pub fn are_equal(thickness_mm: &[f64]) -> bool {
     thickness_mm.windows(2).all(|pair| pair[0] == pair[1])
 }

@@ -221,7 +221,7 @@ pub enum Warning {
 }
 
 impl Warning {
-    /// Whether it depends on the machine, not on the plan.
+    /// Returns true if it depends on the machine, not on the plan.
     pub(crate) fn is_of_the_machine(&self) -> bool {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
     }

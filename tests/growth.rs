@@ -22,7 +22,7 @@ fn rays(mesh: &Mesh, grid: &Grid, samples: Samples) -> [Ldi; 2] {
     [sample(&fine.around_model(&mesh.bounds())), sample(&fine)]
 }
 
-/// Whether a ray is inside at a height, with every entry `z_mm` higher that is above the first layer and has a sampled height
+/// Returns true if a ray is inside at a height, with every entry `z_mm` higher that is above the first layer and has a sampled height
 /// between itself and the exit below. `parts` heights are sampled in each layer.
 fn is_lit(ldi: &Ldi, ray: usize, height_mm: f64, z_mm: f64, middles: &[f64], parts: usize) -> bool {
     let (mut winding, mut z_in, mut z_out) = (0, 0.0, f64::NEG_INFINITY);

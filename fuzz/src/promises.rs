@@ -89,7 +89,7 @@ pub fn planned(slicer: &mut Slicer, options: &Options) -> Planned {
     Ok((report, plan))
 }
 
-/// Whether the planner chooses every layer within the limits.
+/// Returns true if the planner chooses every layer within the limits.
 fn keeps_limits(options: &Options) -> bool {
     matches!(
         options.planner,

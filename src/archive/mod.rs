@@ -174,7 +174,7 @@ pub struct Screen {
     pub pixels: [u32; 2],
     /// Sides of a pixel in x and y, in millimetres.
     pub pitch_mm: [f64; 2],
-    /// Whether the masks are mirrored left to right, for a printer that lights the resin from below.
+    /// True if the masks are mirrored left to right, for a printer that lights the resin from below.
     pub is_mirrored: bool,
     /// Level of anti-aliasing; 1 means that pixels are either lit or dark.
     pub antialias: u32,
@@ -302,7 +302,7 @@ impl PrintJob<'_> {
         middle.map_or(self.resin.layer_mm, |layer| layer.thickness_mm)
     }
 
-    /// Whether the layers have values that the file's head does not: several thicknesses, or exposures other than those of
+    /// Returns true if the layers have values that the file's head does not: several thicknesses, or exposures other than those of
     /// bottom layers, of a fade and of the usual layer.
     fn needs_layer_settings(&self) -> bool {
         let schedule = Schedule {

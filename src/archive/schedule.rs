@@ -29,7 +29,7 @@ impl Schedule {
         }
     }
 
-    /// Whether layers have these exposures, to the millisecond.
+    /// Returns true if layers have these exposures, to the millisecond.
     pub fn fits(&self, exposures_s: impl IntoIterator<Item = f64>) -> bool {
         let mut layers = exposures_s.into_iter().enumerate();
         layers.all(|(layer, stated_s)| (stated_s - self.exposure_s(layer)).abs() <= SAME_S)

@@ -119,7 +119,7 @@ struct Segment {
     /// Its place among the segments of the ring, and their number.
     place: usize,
     count: usize,
-    /// Whether it replaces several segments.
+    /// True if it replaces several segments.
     is_chord: bool,
 }
 
@@ -129,7 +129,7 @@ impl Segment {
         [a.min(b), a.max(b)]
     }
 
-    /// Whether it touches another one where it should not.
+    /// Returns true if it touches another one where it should not.
     fn touches(&self, other: &Self) -> bool {
         if self.outline == other.outline {
             if (self.place + 1) % self.count == other.place && folds_back(self, other) {
@@ -161,7 +161,7 @@ impl Segment {
     }
 }
 
-/// Whether a segment lies on the one before it.
+/// Returns true if a segment lies on the one before it.
 fn folds_back(before: &Segment, after: &Segment) -> bool {
     let ([p, q], [_, r]) = (before.ends, after.ends);
     let along = |axis: usize| {

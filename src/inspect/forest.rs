@@ -47,7 +47,7 @@ pub(super) struct Tree {
     pub largest_layer: usize,
     /// The box around all layers.
     pub around: Patch,
-    /// Whether it stands on the plate, or is the outside.
+    /// True if it stands on the plate, or is the outside.
     pub is_fixed: bool,
     /// The pixels of the last layer.
     here: Patch,

@@ -115,7 +115,7 @@ impl<'a> Hollows<'a> {
         self.forest.of_components()[gap as usize]
     }
 
-    /// Whether a hollow is closed by now.
+    /// Returns true if a hollow is closed by now.
     pub fn is_trap(&self, tree: u32) -> bool {
         let tree = self.forest.root(tree);
         !tree.is_fixed && tree.last + 1 < self.frame.layers()

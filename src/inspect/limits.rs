@@ -198,7 +198,7 @@ pub enum LimitsError {
 }
 
 impl Limits {
-    /// Whether findings of a kind matter at all.
+    /// Returns true if findings of a kind matter at all.
     pub fn looks_for(&self, code: Code) -> bool {
         self.severity.of(code) != Severity::Ignore
     }

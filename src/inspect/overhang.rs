@@ -42,7 +42,7 @@ pub(super) fn unsupported(
     found
 }
 
-/// Whether each component touches the layer below.
+/// For each component, true if it touches the layer below.
 fn touching(here: &Components, contacts: &[[u32; 2]]) -> Vec<bool> {
     let mut touches = vec![false; here.patches.len()];
     for &[_, over] in contacts {

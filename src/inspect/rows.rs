@@ -116,7 +116,7 @@ impl Rows {
         self.ends.len() as i32
     }
 
-    /// Whether no row has a span.
+    /// Returns true if no row has a span.
     pub fn is_blank(&self) -> bool {
         self.spans.is_empty()
     }
@@ -382,7 +382,7 @@ impl Rest {
         std::mem::swap(&mut self.rest, &mut self.less);
     }
 
-    /// Whether [`Self::take`] would take anything away.
+    /// Returns true if [`Self::take`] would take anything away.
     pub fn touches(&self, others: &[Span], half_width: i32) -> bool {
         let mut next = 0;
         self.rest.iter().any(|span| {

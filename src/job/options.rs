@@ -81,7 +81,7 @@ impl Planner {
         }
     }
 
-    /// Whether thicknesses follow the surface.
+    /// Returns true if thicknesses follow the surface.
     pub(super) fn is_adaptive(self) -> bool {
         matches!(self, Self::Optimal | Self::Greedy | Self::Local)
     }
@@ -147,7 +147,7 @@ pub struct Options {
     pub pitch_mm: Option<f64>,
     /// Side of a pixel in y; `pitch_mm` if absent.
     pub pitch_y_mm: Option<f64>,
-    /// Whether print files have their masks mirrored left to right, for printers whose screen lights the resin from below.
+    /// True if print files have their masks mirrored left to right, for printers whose screen lights the resin from below.
     pub mirror: Option<bool>,
     /// Format of the print file.
     pub format: Option<Format>,

@@ -53,7 +53,7 @@ pub struct MeshInfo {
     pub size_mm: [f64; 3],
     /// Enclosed volume, with holes closed.
     pub volume_mm3: f64,
-    /// Whether the mesh is closed and consistently oriented.
+    /// True if the mesh is closed and consistently oriented.
     pub closed: bool,
     /// Number of edges that are open or inconsistently oriented.
     pub open_edges: usize,
@@ -174,7 +174,7 @@ pub struct MaskReport {
     pub pitch_y_mm: f64,
     /// Level of anti-aliasing; 1 means none.
     pub antialias: u32,
-    /// Whether print files have the masks mirrored left to right.
+    /// True if print files have the masks mirrored left to right.
     pub is_mirrored: bool,
 }
 
@@ -189,7 +189,7 @@ pub struct PrintFileReport {
     pub extension: String,
     /// Its media type.
     pub media_type: String,
-    /// Whether a printer is named and reads the format without a converter.
+    /// True if a printer is named and reads the format without a converter.
     pub is_read_by_printer: bool,
     /// What must match in the slicer, if the format is for one of filament printers.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -256,7 +256,7 @@ pub struct UniformReport {
     pub fewest: Option<BestUniform>,
     /// Those within tolerance that print in the shortest time.
     pub quickest: Option<BestUniform>,
-    /// Whether an adaptive plan saves less than 3 % against the best of these, by what the options minimize.
+    /// True if an adaptive plan saves less than 3 % against the best of these, by what the options minimize.
     pub is_enough: bool,
 }
 

@@ -67,12 +67,12 @@ impl Slab {
         self.above_mm < z_mm && z_mm <= self.to_mm
     }
 
-    /// Whether it contains all heights of a facet with these corners.
+    /// Returns true if it contains all heights of a facet with these corners.
     fn covers(self, corners_mm: [f32; 3]) -> bool {
         corners_mm.into_iter().all(|z_mm| self.contains(z_mm))
     }
 
-    /// Whether a facet with these corners may reach into it.
+    /// Returns true if a facet with these corners may reach into it.
     fn meets(self, corners_mm: [f32; 3]) -> bool {
         let corners_mm = corners_mm.map(f64::from);
         corners_mm.iter().any(|&z_mm| self.above_mm < z_mm)

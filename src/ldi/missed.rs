@@ -68,7 +68,7 @@ pub fn missed(mesh: &Mesh, grid: &Grid) -> Option<Missed> {
     })
 }
 
-/// Whether a facet covers the centre of any pixel.
+/// Returns true if a facet covers the centre of any pixel.
 fn covers_any(projection: &Projection<'_>, facet: usize) -> bool {
     let (rows, columns) = (projection.rows(facet), projection.columns(facet));
     if rows.is_empty() || columns.is_empty() {

@@ -170,7 +170,7 @@ impl Hit {
         self.surface >> 1
     }
 
-    /// Whether the ray, going up, leaves the solid here (the facet faces up).
+    /// Returns true if the ray, going up, leaves the solid here (the facet faces up).
     pub fn is_exit(self) -> bool {
         self.surface & 1 == 1
     }

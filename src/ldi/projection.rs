@@ -134,7 +134,7 @@ pub struct Outline {
     corners: [[i64; 2]; 3],
     /// Twice the signed area, in lattice steps squared. The sign is that of the facet's winding.
     area: i64,
-    /// Whether the middle corner is left of the edge between the others.
+    /// True if the middle corner is left of the edge between the others.
     bend_is_left: bool,
 }
 
@@ -203,7 +203,7 @@ pub struct ProjectedFacet {
     z_per_column: f64,
     z_per_row: f64,
     z_range: [f64; 2],
-    /// Whether the facet faces up.
+    /// True if the facet faces up.
     pub faces_up: bool,
 }
 

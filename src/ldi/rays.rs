@@ -148,7 +148,7 @@ impl RayImage<'_> {
         Ok(parts.into_iter().map(|(_, value)| value).collect())
     }
 
-    /// Whether `holds` is true for all rays.
+    /// Returns true if `holds` is true for all rays.
     pub(super) fn all(
         self,
         holds: impl Fn(&[Hit]) -> bool + Sync + Send,

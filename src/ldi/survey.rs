@@ -17,7 +17,7 @@ pub struct Survey {
     pub support_mm3: f64,
     /// Number of rays that pass through a hole of the mesh. Without the caps these rays would not close.
     pub rays_through_holes: usize,
-    /// Whether every ray enters and leaves one body of the model after another, so that no facet is hidden.
+    /// True if every ray enters and leaves one body of the model after another, so that no facet is hidden.
     pub is_in_turn: bool,
 }
 

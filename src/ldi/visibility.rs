@@ -16,7 +16,7 @@ pub struct Visibility {
     pub hidden: Vec<bool>,
     /// The facets that are not hidden although a ray meets them inside the solid, ascending: they may cross the surface.
     pub partly_inside: Vec<u32>,
-    /// Whether bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
+    /// True if bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
     /// the sum of what the facets enclose.
     pub overlaps: bool,
 }
@@ -108,7 +108,7 @@ fn seen_along(
     Ok(seen.into_iter().map(AtomicU8::into_inner).collect())
 }
 
-/// Whether those hits of a ray for which `counts` holds enter and leave one body after another, and no body touches the
+/// Returns true if those hits of a ray for which `counts` holds enter and leave one body after another, and no body touches the
 /// next.
 #[inline]
 pub(super) fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
@@ -122,7 +122,7 @@ pub(super) fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     })
 }
 
-/// Whether those hits of a ray for which `counts` holds enter and leave one body after another, with hits at the same height taken
+/// Returns true if those hits of a ray for which `counts` holds enter and leave one body after another, with hits at the same height taken
 /// together.
 fn is_one_solid(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     let mut winding = 0;

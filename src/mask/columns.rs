@@ -44,7 +44,7 @@ impl Masks {
         }
     }
 
-    /// Whether no pixel is lit in any layer.
+    /// Returns true if no pixel is lit in any layer.
     pub(crate) fn is_black(&self) -> bool {
         self.bands.iter().all(|band| band.pixels.is_empty())
     }

@@ -89,7 +89,7 @@ pub(crate) fn erased_mm2(
     Ok(areas_mm2)
 }
 
-/// Whether nothing is left of any stretch along a ray where surfaces that face down move up.
+/// Returns true if nothing is left of any stretch along a ray where surfaces that face down move up.
 fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
     if shrink.shrinking.z_mm == 0.0 {
         return false;
@@ -158,7 +158,7 @@ fn reach_of(shrink: &Shrink<'_>, step: &Step) -> Disc {
     Disc::new(reach_mm, &shrink.rays)
 }
 
-/// Whether a row is within a reach of any of some.
+/// Returns true if a row is within a reach of any of some.
 fn is_near(changed: &[i32], row: usize, reach: i32) -> bool {
     changed.iter().any(|it| (it - row as i32).abs() <= reach)
 }

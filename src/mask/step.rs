@@ -41,7 +41,7 @@ impl Disc {
         self.half_widths[rows as usize]
     }
 
-    /// Whether it is its middle alone, so that nothing changes.
+    /// Returns true if it is its middle alone, so that nothing changes.
     fn is_point(&self) -> bool {
         self.half_widths == [0]
     }
@@ -89,7 +89,7 @@ impl Step {
         self.mm < 0.0
     }
 
-    /// Whether it takes anything away.
+    /// Returns true if it takes anything away.
     pub fn takes(&self) -> bool {
         !self.grows() && !self.disc.is_point()
     }
@@ -149,7 +149,7 @@ impl Step {
         kept
     }
 
-    /// Whether a ray stays lit, given how many are lit on either side of it in its row and in its column.
+    /// Returns true if a ray stays lit, given how many are lit on either side of it in its row and in its column.
     fn keeps(&self, sides: [[i32; 2]; 2], least: [i32; 2], narrow: [i32; 2]) -> bool {
         let widths = sides.map(|[before, after]| before + 1 + after);
         let is_in_middle = |axis: usize| {

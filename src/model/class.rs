@@ -53,12 +53,12 @@ impl FacetClasses {
         self.starts[1]
     }
 
-    /// Whether any facet is a cap.
+    /// Returns true if any facet is a cap.
     pub fn has_caps(self) -> bool {
         self.starts[0] < self.starts[1]
     }
 
-    /// Whether there are neither voids nor supports.
+    /// Returns true if there are neither voids nor supports.
     pub fn is_model_alone(self) -> bool {
         self.starts[1] == self.count
     }
@@ -110,12 +110,12 @@ impl Winding {
         }
     }
 
-    /// Whether the point is in a support alone.
+    /// Returns true if the point is in a support alone.
     pub fn is_support_alone(self) -> bool {
         self.support != 0 && (self.model == 0 || self.void != 0)
     }
 
-    /// Whether the point is printed: inside the model and not inside a void, or inside a support.
+    /// Returns true if the point is printed: inside the model and not inside a void, or inside a support.
     pub fn is_inside(self) -> bool {
         (self.model != 0 && self.void == 0) || self.support != 0
     }

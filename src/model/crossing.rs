@@ -116,7 +116,7 @@ fn bounds(corners: &[DVec3; 3]) -> [DVec3; 2] {
     [a.min(b).min(c), a.max(b).max(c)]
 }
 
-/// Whether two facets without a common vertex pass through each other: an edge of one passes through the other.
+/// Returns true if two facets without a common vertex pass through each other: an edge of one passes through the other.
 fn cross(mesh: &Mesh, facet: u32, other: u32) -> bool {
     let [one, two] = [facet, other].map(|facet| mesh.corners(facet as usize));
     let [[low, high], [other_low, other_high]] = [bounds(&one), bounds(&two)];
@@ -128,7 +128,7 @@ fn cross(mesh: &Mesh, facet: u32, other: u32) -> bool {
     !is_apart && !shares() && (passes_through(&one, &two) || passes_through(&two, &one))
 }
 
-/// Whether an edge of `one` passes through the inside of `other`.
+/// Returns true if an edge of `one` passes through the inside of `other`.
 fn passes_through(one: &[DVec3; 3], other: &[DVec3; 3]) -> bool {
     let [a, b, c] = *other;
     let side = |point: DVec3| (b - a).cross(c - a).dot(point - a);

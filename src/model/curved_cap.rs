@@ -58,7 +58,7 @@ impl Bent {
         })
     }
 
-    /// Whether it is wide for a model whose largest side this is, and bent.
+    /// Returns true if it is wide for a model whose largest side this is, and bent.
     pub fn is_wide(&self, side: f64) -> bool {
         self.width > WIDE * side && self.rise > BENT * self.width
     }

@@ -47,7 +47,7 @@ pub(super) struct Edges {
     pub neighbours: Neighbours,
     /// Every edge that is used more often in one direction than in the other, repeated by the difference, in order of its lower vertex.
     pub open: Vec<OpenEdge>,
-    /// Whether the two facets at an edge use it in opposite directions wherever there are two.
+    /// True if the two facets at an edge use it in opposite directions wherever there are two.
     pub is_even: bool,
     /// Edges at which three, five or more facets meet.
     pub odd: usize,

@@ -12,7 +12,7 @@ use super::mesh::sixfold_volume;
 
 /// Facets to turn over, and edges at which no choice is right.
 pub(super) struct Facing {
-    /// Whether each facet is to be turned over.
+    /// True if each facet is to be turned over.
     pub turned: Vec<bool>,
     /// Edges at which the facets beside them cannot face the same way, as on a Möbius strip.
     pub contradictions: usize,
@@ -95,7 +95,7 @@ struct Patch {
 }
 
 impl Patch {
-    /// Whether the facets that were kept are the ones to turn.
+    /// Returns true if the facets that were kept are the ones to turn.
     fn is_opposite(&self) -> bool {
         let [kept, turned] = self.count.map(|count| count as f64);
         let enough = MAJORITY * (kept + turned);
@@ -236,7 +236,7 @@ fn for_cells(from: DVec3, to: DVec3, cell: f64, margin: f64, mut visit: impl FnM
 struct Carried {
     patch_of: Vec<u32>,
     patches: usize,
-    /// Whether each facet must be turned for all of its patch to agree with the first.
+    /// True if each facet must be turned for all of its patch to agree with the first.
     turned: Vec<bool>,
     contradictions: usize,
 }

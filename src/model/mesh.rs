@@ -89,7 +89,7 @@ pub struct Mesh {
     pub open_edges: usize,
     /// Number of holes, that is, loops of open edges, that were closed.
     pub holes: usize,
-    /// Whether the input was inside out as a whole, so that all facets were turned over.
+    /// True if the input was inside out as a whole, so that all facets were turned over.
     pub was_inside_out: bool,
     /// Facets of the surface that were turned over, unless all were.
     pub turned_facets: usize,
@@ -311,7 +311,7 @@ impl Mesh {
         sixfold / 6.0
     }
 
-    /// Whether the input was closed and consistently oriented.
+    /// Returns true if the input was closed and consistently oriented.
     pub fn is_closed(&self) -> bool {
         self.open_edges == 0
     }
@@ -490,7 +490,7 @@ fn sides(vertices: &[Vec3]) -> DVec3 {
     max.as_dvec3() - min.as_dvec3()
 }
 
-/// Whether a facet has an area and a slope. Where its height is a matter of rounding, its normal is as well.
+/// Returns true if a facet has an area and a slope. Where its height is a matter of rounding, its normal is as well.
 fn has_area([a, b, c]: [Vec3; 3], rounding: f64) -> bool {
     let (a, b, c) = (a.as_dvec3(), b.as_dvec3(), c.as_dvec3());
     let twice_area = (b - a).cross(c - a).length();

@@ -58,7 +58,7 @@ pub(super) struct Along<'a> {
 }
 
 impl Along<'_> {
-    /// Whether a vertex is lower than another. Of equal heights one is taken to be lower, so that a flat has one minimum.
+    /// Returns true if a vertex is lower than another. Of equal heights one is taken to be lower, so that a flat has one minimum.
     #[inline]
     fn is_lower(&self, one: u32, other: u32) -> bool {
         self.rank(one) < self.rank(other)

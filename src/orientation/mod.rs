@@ -173,7 +173,7 @@ pub enum Exclusion {
 }
 
 impl Exclusion {
-    /// Whether the orientation cannot be printed at all, whatever the limits of the search.
+    /// Returns true if the orientation cannot be printed at all, whatever the limits of the search.
     pub fn is_impossible(self) -> bool {
         match self {
             Self::TooLarge | Self::TooHigh | Self::NoPlan => true,

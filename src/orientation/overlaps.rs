@@ -59,7 +59,7 @@ impl Overlaps {
         })
     }
 
-    /// Whether a point of a facet lies within the solid that the other bodies are.
+    /// Returns true if a point of a facet lies within the solid that the other bodies are.
     pub fn hide(&self, vertices: &[DVec3], facets: &[[u32; 3]], facet: u32, point: DVec3) -> bool {
         let body = self.body_of[facet as usize];
         let [column, row] = self.lattice.place(point);

@@ -81,7 +81,7 @@ pub struct Search {
     found: Vec<Option<Candidate>>,
     /// Number of directions measured so far, and number to measure.
     measured: [usize; 2],
-    /// Whether minima are refined. In a shard they are not, because it has only some of the directions.
+    /// True if minima are refined. In a shard they are not, because it has only some of the directions.
     refines: bool,
     /// Tasks that are waiting to be handed out.
     waiting: VecDeque<Purpose>,
@@ -274,7 +274,7 @@ impl Search {
         }
     }
 
-    /// Whether no task is waiting or outstanding.
+    /// Returns true if no task is waiting or outstanding.
     pub fn is_done(&self) -> bool {
         self.waiting.is_empty() && self.open == 0
     }
@@ -336,7 +336,7 @@ impl Search {
     }
 }
 
-/// Whether a measurement can return this candidate, or a search that rated it: without metrics, it has a reason why it cannot be
+/// Returns true if a measurement can return this candidate, or a search that rated it: without metrics, it has a reason why it cannot be
 /// printed; with metrics, it can.
 fn is_measured(candidate: &Candidate) -> bool {
     let can_be_printed = candidate.excluded.is_none_or(|it| !it.is_impossible());

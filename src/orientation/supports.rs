@@ -45,7 +45,7 @@ impl<'a> Estimate<'a> {
         self.least_n_z
     }
 
-    /// Whether a facet needs contacts.
+    /// Returns true if a facet needs contacts.
     pub fn counts(&self, n_z: f32, is_above_plate: bool) -> bool {
         n_z < self.least_n_z && (is_above_plate || self.profile.lift_mm > 0.0)
     }

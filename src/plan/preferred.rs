@@ -92,7 +92,7 @@ impl Preferred {
         Self { from }
     }
 
-    /// Whether there are none.
+    /// Returns true if there are none.
     pub(super) fn is_empty(&self) -> bool {
         self.from.is_empty()
     }

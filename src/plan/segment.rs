@@ -57,7 +57,7 @@ impl Segment {
         ends.into_iter().map(|end| end as u32).collect()
     }
 
-    /// Whether layers within the thickness range can add up to `units`.
+    /// Returns true if layers within the thickness range can add up to `units`.
     pub fn can_fill(&self, units: u32) -> bool {
         let fewest = units.div_ceil(*self.thickness.end());
         u64::from(fewest) * u64::from(*self.thickness.start()) <= u64::from(units)

@@ -14,7 +14,7 @@ pub(crate) const MOST_BOTTOM_LAYERS: usize = 100;
 struct Tables {
     /// Table j is of plans with j layers; the last is of those with as many as there are bottom layers, or more.
     by_layers: Vec<Table>,
-    /// Whether the top layer of a plan in the last table is the last bottom layer.
+    /// True if the top layer of a plan in the last table is the last bottom layer.
     is_last_bottom: Vec<bool>,
 }
 

@@ -118,7 +118,7 @@ impl Cavities {
         })
     }
 
-    /// Whether each cavity has a point in common with a solid of the same columns.
+    /// For each cavity, true if it has a point in common with a solid of the same columns.
     pub fn that_meet(&self, model: &Columns, other: &Columns) -> Vec<bool> {
         let mut meets = vec![false; self.all.len()];
         for column in 0..model.width * model.height {

@@ -133,7 +133,7 @@ impl Columns {
             .reduce(|a, b| [a[0].min(b[0]), a[1].max(b[1])])
     }
 
-    /// Whether a point is in the solid, by the column that it is nearest to, given in columns and rows.
+    /// Returns true if a point is in the solid, by the column that it is nearest to, given in columns and rows.
     pub fn holds(&self, [column, row]: [f32; 2], z_mm: f32) -> bool {
         let (column, row) = (column + 0.5, row + 0.5);
         if !(column >= 0.0 && row >= 0.0) {

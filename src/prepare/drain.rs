@@ -34,7 +34,7 @@ pub struct Drain {
 pub struct AutoDrain {
     /// Their diameter.
     pub diameter_mm: f64,
-    /// Whether they keep off facets that weigh more than a half, where another way leads out. Resin that stays inside is worse than a
+    /// True if they keep off facets that weigh more than a half, where another way leads out. Resin that stays inside is worse than a
     /// hole that shows.
     pub spare: bool,
 }
@@ -102,7 +102,7 @@ impl Bore {
         Some(rims.map(|rim| rim[0]).fold(enters, f64::max).min(leaves))
     }
 
-    /// Whether the hole meets the void of a shell within a depth.
+    /// Returns true if the hole meets the void of a shell within a depth.
     fn meets(&self, shell: &Shell, depth_mm: f64) -> bool {
         let near = self.near(shell);
         let lines = self.rim.iter().chain([&DVec3::ZERO]);

@@ -130,7 +130,7 @@ impl Hollowing {
         lengths::check(lengths, MOST_LENGTH_MM)
     }
 
-    /// Whether holes drain the cavities that the model has, and nothing is hollowed.
+    /// Returns true if holes drain the cavities that the model has, and nothing is hollowed.
     pub(crate) fn drains_alone(&self) -> bool {
         self.wall_mm == 0.0
     }

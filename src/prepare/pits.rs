@@ -56,7 +56,7 @@ pub(super) fn fill(shell: &mut Shell, most_mm: f32, outlets: &[bool]) {
     }
 }
 
-/// Whether the void is above each vertex.
+/// For each vertex, true if the void is above it.
 fn faces_down(shell: &Shell) -> Vec<bool> {
     let mut rises = vec![0.0f32; shell.vertices.len()];
     for facet in &shell.facets {

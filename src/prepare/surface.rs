@@ -114,7 +114,7 @@ fn nearest_of([a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
 /// Facets that weigh more than this are spared, if weights say where nothing may touch.
 const SPARED: f32 = 0.5;
 
-/// Whether a facet is spared.
+/// Returns true if a facet is spared.
 pub(super) fn is_spared(weights: Option<&[f32]>, facet: u32) -> bool {
     let weight = weights.and_then(|it| it.get(facet as usize));
     weight.is_some_and(|&weight| weight > SPARED)

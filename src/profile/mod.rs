@@ -68,17 +68,17 @@ impl Metric {
         }
     }
 
-    /// Whether it is computed from normal cones.
+    /// Returns true if it is computed from normal cones.
     pub fn needs_cones(self) -> bool {
         self == Self::Deviation
     }
 
-    /// Whether it is computed from the areas of sections.
+    /// Returns true if it is computed from the areas of sections.
     pub fn needs_areas(self) -> bool {
         matches!(self, Self::Area | Self::Volume)
     }
 
-    /// Whether its errors are distances of the print from the model.
+    /// Returns true if its errors are distances of the print from the model.
     pub fn is_distance(self) -> bool {
         matches!(self, Self::Cusp | Self::Deviation | Self::Thread)
     }
@@ -292,7 +292,7 @@ impl LayerErrors {
         }
     }
 
-    /// Whether errors never shrink as a layer grows at either end.
+    /// Returns true if errors never shrink as a layer grows at either end.
     pub fn is_monotone(&self) -> bool {
         match self {
             Self::Sum(_) => true,

@@ -22,7 +22,7 @@ pub(crate) struct Shapes {
     cones: Vec<Cone>,
     /// For each facet, whether it lies wholly inside the solid; may be empty.
     hidden: Vec<bool>,
-    /// Whether bodies overlap in a way that only rays can resolve.
+    /// True if bodies overlap in a way that only rays can resolve.
     pub overlaps: bool,
     weighing: Option<Weighing>,
 }
@@ -110,7 +110,7 @@ impl Shapes {
         self.exact.bins
     }
 
-    /// Whether the areas of sections have been measured.
+    /// Returns true if the areas of sections have been measured.
     pub fn has_areas(&self) -> bool {
         !self.sampled.areas_mm2.is_empty()
     }

@@ -76,7 +76,7 @@ pub(super) struct Meeting {
 }
 
 impl Meeting {
-    /// Whether it meets a part of the other facet.
+    /// Returns true if it meets a part of the other facet.
     pub fn meets(&self, facets: &Facets, part: &Triangle) -> bool {
         !are_apart(part, &facets.triangles[self.facet as usize], self.limit)
     }
@@ -98,7 +98,7 @@ pub(super) fn meeting(mesh: &Mesh, facets: &Facets, facet: u32) -> Vec<Meeting> 
     beside.filter(|it| it.meets(facets, triangle)).collect()
 }
 
-/// Whether both sides of a facet are inside the solid at one of its points, or both outside. Inside is a winding number other
+/// Returns true if both sides of a facet are inside the solid at one of its points, or both outside. Inside is a winding number other
 /// than zero.
 pub(super) fn is_hidden(facets: &Facets, facet: u32, point: DVec3) -> bool {
     let [a, b, c] = facets.triangles[facet as usize];
@@ -109,7 +109,7 @@ pub(super) fn is_hidden(facets: &Facets, facet: u32, point: DVec3) -> bool {
     is_inside(1.0) == is_inside(-1.0)
 }
 
-/// Whether two triangles are more than `limit` apart along some axis on which convex bodies that do not meet have a gap.
+/// Returns true if two triangles are more than `limit` apart along some axis on which convex bodies that do not meet have a gap.
 /// A negative limit allows that much overlap.
 fn are_apart(one: &Triangle, two: &Triangle, limit: f64) -> bool {
     let edges = |[a, b, c]: &Triangle| [b - a, c - b, a - c];

@@ -42,7 +42,7 @@ pub struct Knowledge {
     pub pose: Option<Pose>,
     /// The copies in the masks, where the file does not say it.
     pub copies: Vec<PrintedCopy>,
-    /// Whether the masks are mirrored left to right.
+    /// True if the masks are mirrored left to right.
     pub is_mirrored: Option<bool>,
 }
 

@@ -259,12 +259,12 @@ impl<'a> Survey<'a> {
         }
     }
 
-    /// Whether a point is on the surface of the solid.
+    /// Returns true if a point is on the surface of the solid.
     fn is_shown(&self, point: DVec3, cut: Cut<'_>) -> bool {
         cut.met.is_empty() || !is_hidden(self.facets, cut.facet, point)
     }
 
-    /// Whether no corner is farther from a point of the printed surface than the greatest distances so far, but for the
+    /// Returns true if no corner is farther from a point of the printed surface than the greatest distances so far, but for the
     /// precision.
     fn is_within(&self, triangle: &Triangle, point: DVec3) -> bool {
         let bound = triangle.map(|corner| corner.distance_squared(point));

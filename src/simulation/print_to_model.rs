@@ -240,7 +240,7 @@ impl<'a> Survey<'a> {
         });
     }
 
-    /// Whether no corner is farther from a facet than the greatest distance so far.
+    /// Returns true if no corner is farther from a facet than the greatest distance so far.
     fn is_within(&self, corners: &[DVec3; 4], facet: u32) -> bool {
         let mut corners = corners.iter();
         corners.all(|&corner| self.facets.to(corner, facet).squared <= self.tally.squared)

@@ -156,7 +156,7 @@ fn an_interrupt_stops_long_work_that_writes_nothing() {
     assert!(!Path::new(&copy).exists());
 }
 
-/// Whether a process has begun to write a file in a folder, which need not have a name yet.
+/// Returns true if a process has begun to write a file in a folder, which need not have a name yet.
 fn is_writing(child: &Child, folder: &TempDir) -> bool {
     let open = format!("/proc/{}/fd", child.id());
     // Elsewhere it has a name.

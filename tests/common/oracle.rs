@@ -7,7 +7,7 @@ use cusp_slicer::model::Mesh;
 pub struct NaiveRay {
     /// Facets and heights, in ascending order of height.
     pub hits: Vec<(u32, f64)>,
-    /// Whether the ray passes so close to an edge that rounding decides the side.
+    /// True if the ray passes so close to an edge that rounding decides the side.
     pub is_near_edge: bool,
 }
 

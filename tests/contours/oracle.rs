@@ -12,7 +12,7 @@ pub enum Place {
     Out,
 }
 
-/// Whether a → b → c turns left (1), right (-1) or not (0).
+/// Direction in which a → b → c turns: left (1), right (-1) or not (0).
 fn turn(a: Point, b: Point, c: Point) -> i128 {
     let [ax, ay, bx, by, cx, cy] = [a[0], a[1], b[0], b[1], c[0], c[1]].map(i128::from);
     ((bx - ax) * (cy - ay) - (by - ay) * (cx - ax)).signum()
@@ -22,7 +22,7 @@ fn is_between(p: Point, [a, b]: [Point; 2]) -> bool {
     turn(a, b, p) == 0 && (0..2).all(|i| (a[i].min(b[i])..=a[i].max(b[i])).contains(&p[i]))
 }
 
-/// Whether two segments cross in their insides, or have more than a point in common.
+/// Returns true if two segments cross in their insides, or have more than a point in common.
 fn cross_or_overlap(one: [Point; 2], other: [Point; 2]) -> bool {
     let ([a, b], [c, d]) = (one, other);
     let [abc, abd, cda, cdb] = [turn(a, b, c), turn(a, b, d), turn(c, d, a), turn(c, d, b)];
@@ -135,7 +135,7 @@ pub fn assert_valid(polygons: &[Polygon]) {
     }
 }
 
-/// Whether polygons contain a point, in half steps; `None` on an outline.
+/// Returns true if polygons contain a point, in half steps; `None` on an outline.
 pub fn contains(polygons: &[Polygon], half_steps: [i64; 2]) -> Option<bool> {
     let places = polygons
         .iter()

@@ -32,7 +32,7 @@ fn volume(facets: &[Corners]) -> f64 {
     six.sum::<f64>() / 6.0
 }
 
-/// Whether each edge has a partner the other way round.
+/// Returns true if each edge has a partner the other way round.
 fn is_closed(facets: &[Corners]) -> bool {
     let mut edges: HashMap<[[u32; 3]; 2], i32> = HashMap::new();
     for facet in facets {

@@ -171,7 +171,7 @@ fn no_other_set_of_thicknesses_has_fewer_layers() {
     );
 }
 
-/// Whether layers of a thickness are allowed anywhere.
+/// Returns true if layers of a thickness are allowed anywhere.
 fn allows(case: &Case, thickness: u32) -> bool {
     let thickness = thickness as usize;
     let mut ranges = case.rules.thickness.iter();

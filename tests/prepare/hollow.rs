@@ -230,7 +230,7 @@ fn points_are_void_exactly_where_naive_distances_say_so() {
     assert!(checked.iter().all(|&it| it > 500));
 }
 
-/// Whether a point is inside, by the facets above it.
+/// Returns true if a point is inside, by the facets above it.
 fn is_inside(mesh: &Mesh, at: DVec3) -> bool {
     let of_facet = |facet: usize| {
         let [a, b, c] = mesh.corners(facet);

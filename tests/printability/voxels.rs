@@ -317,7 +317,7 @@ impl Voxels {
         self.regions(Code::Overhang, &planes, limits.speck_px, 0.0)
     }
 
-    /// Whether a line through a pixel leads over unsupported ones to a supported one on both sides.
+    /// Returns true if a line through a pixel leads over unsupported ones to a supported one on both sides.
     fn is_bridged(&self, at: usize, over: &Plane, to: &Plane, longest_mm: f64) -> bool {
         let (x, y) = ((at % self.width) as i32, (at / self.width) as i32);
         // From a pixel to the nearest that is not unsupported, in steps; none if that is not supported.

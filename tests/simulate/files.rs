@@ -21,7 +21,7 @@ fn steps() -> Triangles {
     .concat()
 }
 
-/// Whether the middle of a layer of [`steps`] is inside at a point relative to the middle of its box.
+/// Returns true if the middle of a layer of [`steps`] is inside at a point relative to the middle of its box.
 fn in_steps(x: f64, y: f64, z: f64) -> bool {
     let (x, y) = (x + 2.0, y + 1.5);
     let is_within = (0.0..4.0).contains(&x) && (0.0..3.0).contains(&y);

@@ -46,7 +46,7 @@ async function placeIn(view: Locator, x: number, y: number): Promise<[number, nu
   return [box.x + x * box.width, box.y + y * box.height];
 }
 
-/** Whether the pointer is on a marker there. */
+/** Returns true if the pointer is on a marker there. */
 async function isMarker(page: Page, at: readonly [number, number]): Promise<boolean> {
   await page.mouse.move(...at);
   return page.locator("cusp-view .scene.over").count().then((count) => count > 0);

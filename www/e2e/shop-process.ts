@@ -73,7 +73,7 @@ export interface Usage {
   files: number;
 }
 
-/** Whether there was such a process: it may have ended since its number was read. */
+/** Returns true if there was such a process: it may have ended since its number was read. */
 function isKilled(pid: number, signal: NodeJS.Signals): boolean {
   try {
     return process.kill(pid, signal);

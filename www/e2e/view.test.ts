@@ -218,7 +218,7 @@ test("the view shows the whole model at any size until somebody moves it, in the
     harness.show();
     await harness.set({ positions: harness.solids.ball(10, 32), showsLegend: false });
   });
-  /** Whether the model reaches the edge of the view. */
+  /** Returns true if the model reaches the edge of the view. */
   const isCut = async (): Promise<boolean> => {
     const { width = 0, height = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
     const at = await picture(page);
@@ -801,7 +801,7 @@ interface Noted {
   frames: number;
 }
 
-/** Whether the canvas has been cleared, by a new size, since it was drawn on. */
+/** Returns true if the canvas has been cleared, by a new size, since it was drawn on. */
 const watchClearing = (): void => {
   const size = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "width");
   const cleared = new WeakSet<HTMLCanvasElement>();

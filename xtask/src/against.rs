@@ -223,7 +223,7 @@ fn compare(case: &Case, programs: &[PathBuf; 2], rounds: u32) -> Result<[Measure
     Ok(measured)
 }
 
-/// Whether a command did its work. `cusp check` ends with 1 where it finds something to reject.
+/// Returns true if a command did its work. `cusp check` ends with 1 where it finds something to reject.
 fn is_done(code: Option<i32>, output: &[u8]) -> bool {
     code == Some(0) || code == Some(1) && output.starts_with(b"{")
 }

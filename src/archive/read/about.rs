@@ -29,11 +29,11 @@ pub struct About {
     pub pixel_mm: [f64; 2],
     /// Extent of the printer in x, y and z, in millimetres.
     pub plate_mm: [Option<f64>; 3],
-    /// Whether columns are stored from right to left.
+    /// True if columns are stored from right to left.
     pub is_mirrored_x: Option<bool>,
-    /// Whether rows are stored from the smallest y to the largest.
+    /// True if rows are stored from the smallest y to the largest.
     pub is_mirrored_y: Option<bool>,
-    /// Whether, mirroring undone, columns are along y and rows along x.
+    /// True if, mirroring undone, columns are along y and rows along x.
     pub is_turned: bool,
     /// Nominal layer thickness, in millimetres.
     pub layer_mm: Option<f64>,
@@ -51,7 +51,7 @@ pub struct About {
     pub volume_ml: Option<f64>,
     /// Weight of the resin, in grams.
     pub weight_g: Option<f64>,
-    /// Whether heights and exposures of single layers count. Where the file says no, a printer takes the nominal values for
+    /// True if heights and exposures of single layers count. Where the file says no, a printer takes the nominal values for
     /// all layers.
     pub uses_layer_values: Option<bool>,
 }
@@ -93,7 +93,7 @@ impl About {
         PRINTERS.iter().find(is_it).cloned()
     }
 
-    /// Whether columns are stored from right to left, by the file or by its printer, if either says.
+    /// Returns true if columns are stored from right to left, by the file or by its printer, if either says.
     pub fn is_mirrored(&self) -> Option<bool> {
         let by_printer = || self.known_printer().map(|printer| printer.is_mirrored);
         self.is_mirrored_x.or_else(by_printer)

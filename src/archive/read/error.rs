@@ -64,7 +64,7 @@ pub enum PrintFileError {
         }
     )]
     Model {
-        /// Whether it has layers, as the formats prusa-3mf and orca-3mf have.
+        /// True if it has layers, as the formats prusa-3mf and orca-3mf have.
         has_layers: bool,
     },
     /// A CTB that only its maker's programs and printers can read.

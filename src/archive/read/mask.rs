@@ -6,11 +6,11 @@ pub(super) const HALF: u8 = 128;
 /// How a stored mask becomes one seen from above, with x to the right and row 0 at the largest y.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Flips {
-    /// Whether columns are stored from right to left.
+    /// True if columns are stored from right to left.
     pub mirror_x: bool,
-    /// Whether rows are stored from the smallest y to the largest.
+    /// True if rows are stored from the smallest y to the largest.
     pub mirror_y: bool,
-    /// Whether, mirroring undone, columns are along y and rows along x.
+    /// True if, mirroring undone, columns are along y and rows along x.
     pub exchange: bool,
 }
 
@@ -71,7 +71,7 @@ impl Mask {
         }
     }
 
-    /// Whether a pixel is lit. Pixels outside the mask are dark.
+    /// Returns true if a pixel is lit. Pixels outside the mask are dark.
     pub fn is_lit(&self, column: i32, row: i32) -> bool {
         changes_up_to(self.row(row), column) & 1 == 1
     }

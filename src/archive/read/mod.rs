@@ -110,7 +110,7 @@ enum Coding {
     /// PNGs in which each colour of a pixel is a pixel of the mask.
     PngOfSubpixels,
     Pw0,
-    /// Whether greys go to 255 rather than 15.
+    /// True if greys go to 255 rather than 15.
     Goo {
         is_fine: bool,
     },

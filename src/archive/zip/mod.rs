@@ -78,7 +78,7 @@ pub trait Container: Sync {
         png::encode(runs, canvas.pixels, Depth::Grey)
     }
 
-    /// Whether [`LayerEntry::survey`] is needed.
+    /// Returns true if [`LayerEntry::survey`] is needed.
     fn needs_survey(&self) -> bool {
         false
     }

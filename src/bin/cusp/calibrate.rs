@@ -18,7 +18,7 @@ use crate::watch::stop_on_interrupt;
 
 #[derive(Subcommand)]
 pub enum Calibrating {
-    /// Whether the printer prints layers of several thicknesses: two towers to measure with a caliper
+    /// True if the printer prints layers of several thicknesses: two towers to measure with a caliper
     Layers {
         #[command(flatten)]
         target: Target,
@@ -64,7 +64,7 @@ pub enum Calibrating {
 }
 
 impl Calibrating {
-    /// Whether a program reads what is printed.
+    /// Returns true if a program reads what is printed.
     pub fn is_json(&self) -> bool {
         match self {
             Self::Layers { json, .. } | Self::Exposure { json, .. } | Self::Resin { json, .. } => {

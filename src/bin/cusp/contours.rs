@@ -47,7 +47,7 @@ fn contour_file(text: &str) -> Result<PathBuf, String> {
     }
 }
 
-/// Whether a file is an SVG; `None` if it is no CLI file either.
+/// Returns true if a file is an SVG; `None` if it is no CLI file either.
 fn is_svg(path: &Path) -> Option<bool> {
     let extension = path.extension()?;
     let is = |other| extension.eq_ignore_ascii_case(other);

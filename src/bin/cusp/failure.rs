@@ -156,7 +156,7 @@ pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// Whether a program reads what is printed.
+/// True if a program reads what is printed.
 pub static IS_JSON: AtomicBool = AtomicBool::new(false);
 
 /// Says why a command failed, once, and returns its exit code.

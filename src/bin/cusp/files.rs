@@ -296,12 +296,12 @@ fn place_for(output: &Path, input: Option<&Path>, noun: &str) -> Result<PathBuf,
     }
 }
 
-/// Whether a path has a separator at its end.
+/// Returns true if a path has a separator at its end.
 fn names_folder(path: &Path) -> bool {
     path.to_string_lossy().ends_with(std::path::is_separator)
 }
 
-/// Whether print files go into it: a folder that is there, or is named as one.
+/// Returns true if print files go into it: a folder that is there, or is named as one.
 pub fn is_folder(output: &Path) -> bool {
     names_folder(output) || (!is_standard(output) && output.is_dir())
 }

@@ -62,10 +62,10 @@ pub struct JobModel {
     /// The plate of a project that has several, from 1; the first if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub plate: Option<u32>,
-    /// Whether objects that a 3MF calls surfaces are read, too.
+    /// True if objects that a 3MF calls surfaces are read, too.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub surfaces: bool,
-    /// Whether every hole is closed by a curved cap.
+    /// True if every hole is closed by a curved cap.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub curved_caps: bool,
 }

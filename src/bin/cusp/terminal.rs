@@ -9,7 +9,7 @@ use serde::Serialize;
 
 use crate::visible::{visible, visible_lines};
 
-/// Whether standard output carries a file, so that nothing else may go there.
+/// True if standard output carries a file, so that nothing else may go there.
 static STDOUT_IS_TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// From here on, standard output carries a file: what is printed for people goes to stderr.
@@ -17,7 +17,7 @@ pub fn take_stdout() {
     STDOUT_IS_TAKEN.store(true, Ordering::Relaxed);
 }
 
-/// Whether standard output is a terminal.
+/// Returns true if standard output is a terminal.
 pub fn is_on_terminal() -> bool {
     io::stdout().is_terminal()
 }

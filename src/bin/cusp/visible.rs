@@ -5,7 +5,7 @@ use std::fmt::Write as _;
 
 use serde_json::Value;
 
-/// Whether a character acts instead of being seen: control characters, ends of lines, and marks of the direction of writing.
+/// Returns true if a character acts instead of being seen: control characters, ends of lines, and marks of the direction of writing.
 fn acts(character: char) -> bool {
     character.is_control()
         || matches!(character, '\u{61c}' | '\u{200e}' | '\u{200f}' | '\u{2028}'..='\u{202e}' | '\u{2066}'..='\u{2069}' | '\u{feff}')

@@ -153,7 +153,7 @@ pub fn note_progress(done: f64) {
     DONE.store(done.to_bits(), Ordering::Relaxed);
 }
 
-/// Whether work should stop.
+/// Returns true if work should stop.
 pub fn is_stopped() -> bool {
     INTERRUPTED.load(Ordering::Relaxed) || EXCEEDED.get().is_some()
 }

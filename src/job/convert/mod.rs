@@ -29,7 +29,7 @@ pub struct Target {
     pub format: Option<Format>,
     /// The printer; the one that the file names if absent, where it is known.
     pub printer: Option<PrinterChoice>,
-    /// Whether masks are mirrored left to right; as the printer has them if absent.
+    /// True if masks are mirrored left to right; as the printer has them if absent.
     pub mirror: Option<bool>,
     /// A resin, whose exposures, rests and moves replace those of the file. Its growth does not count: masks stay as they are.
     pub resin: Option<Resin>,

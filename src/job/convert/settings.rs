@@ -136,7 +136,7 @@ pub(super) fn exposures(
     })
 }
 
-/// Whether exposures are one, to the millisecond.
+/// Returns true if exposures are one, to the millisecond.
 fn is_same(one_s: f64, other_s: f64) -> bool {
     (one_s - other_s).abs() <= SAME_S
 }

@@ -113,7 +113,7 @@ impl Planned {
         }))
     }
 
-    /// Whether this is the plan of these models with this layering.
+    /// Returns true if this is the plan of these models with this layering.
     pub fn is_of(&self, models: &[PlannedModel], layering: &Layering) -> bool {
         let is_same = |(a, b): (&PlannedModel, &PlannedModel)| {
             Arc::ptr_eq(&a.measured, &b.measured)

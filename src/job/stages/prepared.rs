@@ -200,7 +200,7 @@ impl Prepared {
         }))
     }
 
-    /// Whether it is what [`Prepared::new`] would make.
+    /// Returns true if it is what [`Prepared::new`] would make.
     pub fn is_of(&self, sampling: &Sampling, spared: Option<&[f32]>) -> bool {
         let Preparing {
             pose,
@@ -214,7 +214,7 @@ impl Prepared {
             && of.as_deref() == spared
     }
 
-    /// Whether voids or supports are made.
+    /// Returns true if voids or supports are made.
     pub fn takes_time(sampling: &Sampling) -> bool {
         sampling.hollow.is_some() || sampling.supports.is_some()
     }

@@ -72,7 +72,7 @@ pub struct UsedGpu {
 pub struct Sampler {
     /// The GPU to use next, or why the last search found none. `None` before a search and after a failure.
     gpu: Option<Result<Gpu, LdiError>>,
-    /// Whether that GPU is one that the caller opened, which is used at every size.
+    /// True if that GPU is one that the caller opened, which is used at every size.
     is_given: bool,
     /// What may be taken, if that is bounded.
     memory: Option<Memory>,
@@ -272,7 +272,7 @@ impl Sampled {
         &self.prepared.mesh
     }
 
-    /// Whether it was sampled like this.
+    /// Returns true if it was sampled like this.
     pub fn is_of(&self, sampling: &Sampling, spared: Option<&[f32]>) -> bool {
         self.sampling == *sampling && self.prepared.is_of(sampling, spared)
     }

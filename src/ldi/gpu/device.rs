@@ -155,7 +155,7 @@ impl Gpu {
         self.method
     }
 
-    /// Whether it is known to be emulated in software.
+    /// Returns true if it is known to be emulated in software.
     pub fn is_emulated(&self) -> bool {
         self.is_emulated
     }

@@ -65,7 +65,7 @@ fn failed(fault: GpuFault) -> LdiError {
 /// The facets from which on a search for a GPU can be worth its time.
 const MANY_FACETS: usize = 1_000_000;
 
-/// Whether a GPU can be faster than the CPU backend at this size: with many facets, and at least four for each ray.
+/// Returns true if a GPU can be faster than the CPU backend at this size: with many facets, and at least four for each ray.
 ///
 /// What a GPU finds is read back, and the CPU computes heights and sorts. Where rays outnumber facets, that alone takes longer than
 /// all that the CPU backend does (docs/ldi.md, "When a GPU is used"; `cargo xtask bench gpu` checks it).

@@ -36,7 +36,7 @@ impl ModelFormat {
     }
 }
 
-/// Whether the first line that is neither empty nor a comment begins with a word of OBJ, and goes on after it.
+/// Returns true if the first line that is neither empty nor a comment begins with a word of OBJ, and goes on after it.
 fn is_obj(head: &[u8]) -> bool {
     const WORDS: [&[u8]; 9] = [
         b"v", b"vn", b"vt", b"f", b"o", b"g", b"s", b"mtllib", b"usemtl",

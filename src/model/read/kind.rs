@@ -132,7 +132,7 @@ impl FileKind {
     }
 }
 
-/// Whether a text begins as a DXF does, perhaps after comments: group 0, then SECTION.
+/// Returns true if a text begins as a DXF does, perhaps after comments: group 0, then SECTION.
 fn is_dxf(text: &[u8]) -> bool {
     let mut lines = text.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
     let mut code = lines.next();

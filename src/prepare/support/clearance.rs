@@ -210,14 +210,14 @@ impl Clearance {
         mix(slice(z), slice(next_z), part_z)
     }
 
-    /// Whether a point is where supports may be.
+    /// Returns true if a point is where supports may be.
     pub fn is_within(&self, at: DVec3) -> bool {
         let nodes = self.nodes(at);
         let last = [self.lattice.width, self.lattice.height].map(|count| (count - 1) as f32);
         (0.0..=last[0]).contains(&nodes.x) && (0.0..=last[1]).contains(&nodes.y)
     }
 
-    /// Whether all of a straight way is so far from the model.
+    /// Returns true if all of a straight way is so far from the model.
     pub fn is_clear(&self, from: DVec3, to: DVec3, need_mm: f32) -> bool {
         let step_mm = f64::from(self.columns.pitch_mm);
         let steps = (from.distance(to) / step_mm) as usize + 1;
@@ -323,7 +323,7 @@ impl Clearance {
     }
 }
 
-/// Whether a way rises by at least as much as it runs, but for rounding.
+/// Returns true if a way rises by at least as much as it runs, but for rounding.
 pub(super) fn is_steep(from: DVec3, to: DVec3) -> bool {
     let (x, y, z) = (from.x - to.x, from.y - to.y, from.z - to.z);
     z > 0.0 && x * x + y * y <= z * z * 1.0001

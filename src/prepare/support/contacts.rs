@@ -234,7 +234,7 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
         .collect()
 }
 
-/// Whether a body of the model goes on below a point, along the nearest ray.
+/// Returns true if a body of the model goes on below a point, along the nearest ray.
 fn is_buried(ldi: &Ldi, at: DVec3) -> bool {
     let pixel = ldi.grid.to_pixels(at.truncate());
     let (column, row) = (pixel.x.floor(), pixel.y.floor());
@@ -258,7 +258,7 @@ struct Place {
     facet: u32,
     /// Rise over run.
     slope: f64,
-    /// Whether a tip there would reach beyond the surface.
+    /// True if a tip there would reach beyond the surface.
     is_edge: bool,
 }
 

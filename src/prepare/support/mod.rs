@@ -37,9 +37,9 @@ pub struct Supporting {
     /// Supports at these points. If absent, they are placed automatically.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub points: Option<Vec<SupportPoint>>,
-    /// Whether more are placed automatically where these points do not hold the model.
+    /// True if more are placed automatically where these points do not hold the model.
     pub fill: bool,
-    /// Whether automatic points keep off facets that weigh more than a half. Those that the model would need there are unreached.
+    /// True if automatic points keep off facets that weigh more than a half. Those that the model would need there are unreached.
     pub spare: bool,
 }
 
@@ -101,7 +101,7 @@ pub struct SupportProfile {
     pub foot_mm: f64,
     /// Thickness of a foot on the plate, and of the raft.
     pub foot_thickness_mm: f64,
-    /// Whether all feet stand on one raft.
+    /// True if all feet stand on one raft.
     pub raft: bool,
 }
 

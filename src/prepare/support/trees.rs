@@ -75,7 +75,7 @@ struct Node {
     tips: u32,
     /// The nodes that it is below of.
     above: u32,
-    /// Whether the pillar goes straight on here.
+    /// True if the pillar goes straight on here.
     is_straight: bool,
 }
 
@@ -185,7 +185,7 @@ impl<'a> Trees<'a> {
         tips.collect()
     }
 
-    /// Whether a tip touches the model only where it should.
+    /// Returns true if a tip touches the model only where it should.
     fn is_clear(&self, tip: &Tip) -> bool {
         let need_mm = tip.end_mm + self.profile.clearance_mm;
         let is_free = |part: f64| {
@@ -245,7 +245,7 @@ impl<'a> Trees<'a> {
         foot.map_or(End::Plate, |foot| foot.1)
     }
 
-    /// Whether a pillar can hold a tip more: there must be room for it to be thicker.
+    /// Returns true if a pillar can hold a tip more: there must be room for it to be thicker.
     fn bears_more(&self, mut node: u32) -> bool {
         let end = self.end_of(node);
         let most = match end {

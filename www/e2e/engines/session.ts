@@ -47,6 +47,6 @@ export interface Engine {
    * @param proxy the port of what stands for all other machines
    */
   start(folder: string, programs: Programs, proxy: number): Promise<Session>;
-  /** Whether the browser asks this host for something by itself, whatever page is open. */
+  /** Returns true if the browser asks this host for something by itself, whatever page is open. */
   asks(host: string): boolean;
 }

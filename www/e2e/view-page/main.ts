@@ -29,7 +29,7 @@ interface PanelOptions {
   readonly positions: Float32Array;
   readonly z_mm: readonly number[];
   readonly locale?: string;
-  /** Whether there is a chart. */
+  /** True if there is a chart. */
   readonly hasPlot?: boolean;
   readonly style?: Partial<CSSStyleDeclaration>;
 }

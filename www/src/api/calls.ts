@@ -56,7 +56,7 @@ const MODEST_BYTES = 256 << 20;
 /** Memory that a model may take, as a multiple of its file: some files are packed. */
 const MEMORY_OF_FILE = 64;
 
-/** Whether the memory of a worker, which never shrinks, is large, and many times what files of this size need. */
+/** Returns true if the memory of a worker, which never shrinks, is large, and many times what files of this size need. */
 async function hasOutgrown({ handle }: Life<unknown>, file_bytes: number): Promise<boolean> {
   return (await handle.remote.memory()) > Math.max(MODEST_BYTES, MEMORY_OF_FILE * file_bytes);
 }

@@ -8,7 +8,7 @@ const FEWEST_GROUPS = 6;
 /** Groups in stock per helper: while it encodes one, the next one is on its way. */
 const STOCK = 2;
 
-/** Whether help is worth its while. */
+/** Returns true if help is worth its while. */
 export function isLong(groups: LayerGroups): boolean {
   return groups.left() >= FEWEST_GROUPS;
 }

@@ -87,7 +87,7 @@ export const SlicerError = class SlicerError extends Error {
   }
 } as unknown as SlicerErrorConstructor;
 
-/** Whether an error is an abort: the reason of `signal`, or any `AbortError` or `TimeoutError`. */
+/** Returns true if an error is an abort: the reason of `signal`, or any `AbortError` or `TimeoutError`. */
 export function isAbort(error: unknown, signal?: AbortSignal): boolean {
   if (signal?.aborted === true && error === signal.reason) return true;
   return error instanceof DOMException && (error.name === "AbortError" || error.name === "TimeoutError");

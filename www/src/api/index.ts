@@ -101,7 +101,7 @@ export interface LoadCall extends Watch {
   name?: string;
   /** Choices that the file leaves: a plate of a 3MF project, surfaces as models, curved caps. */
   reading?: ReadOptions;
-  /** Whether the answer has {@link Loaded.positions}: sooner than by a call of `positions()`. */
+  /** True if the answer has {@link Loaded.positions}: sooner than by a call of `positions()`. */
   positions?: boolean;
 }
 

@@ -220,7 +220,7 @@ const ROUNDING = 1e-6;
 /** A format for slicers of filament printers. */
 export type FilamentFormat = keyof typeof FILAMENT;
 
-/** Whether a format is for slicers of filament printers. */
+/** Returns true if a format is for slicers of filament printers. */
 export const isFilament = (format: Format | ""): format is FilamentFormat => Object.hasOwn(FILAMENT, format);
 
 /** The limits of layers and the first layer that apply for a slicer of filament printers and a nozzle if none are given. */

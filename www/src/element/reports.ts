@@ -16,7 +16,7 @@ interface Waiting {
 type Speaker = Pick<HTMLElement, "dispatchEvent"> & { requestUpdate(): void; readonly query: string };
 
 interface Asked {
-  /** Whether the last plan is for the current settings. */
+  /** Returns true if the last plan is for the current settings. */
   isCurrent(): boolean;
   hasView(): boolean;
   /** The list of printers has arrived. */

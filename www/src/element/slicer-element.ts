@@ -242,7 +242,7 @@ export abstract class SlicerElement extends SettableElement {
     }
   }
 
-  /** Whether a model was opened with a button of the empty element, so that the focus will be lost. */
+  /** True if a model was opened with a button of the empty element, so that the focus will be lost. */
   #orphaned = false;
 
   /** @internal */
@@ -261,7 +261,7 @@ export abstract class SlicerElement extends SettableElement {
     this.#orphaned = this.model === null;
   }
 
-  /** Whether files that are opened together stand on one plate; otherwise the first of them is opened. */
+  /** Returns true if files that are opened together stand on one plate; otherwise the first of them is opened. */
   get #hasPlate(): boolean {
     return this.shownPanels.has("plate");
   }

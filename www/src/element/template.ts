@@ -29,9 +29,9 @@ import type { Result } from "./state/result.js";
 import { shown } from "../api/visible.js";
 
 interface Drawn extends Facts {
-  /** Whether there is room for settings beside the results. */
+  /** True if there is room for settings beside the results. */
   isWide: boolean;
-  /** Whether the problem is shown beside the setting that caused it. */
+  /** True if the problem is shown beside the setting that caused it. */
   isBeside: boolean;
 }
 

@@ -12,7 +12,7 @@ import { visitWords, type VisitWords } from "./texts/visit/index.js";
 
 const PROPERTIES = {
   language: given<Language>(languageOf()),
-  /** Whether there is a plan, so that the tour has something to show. */
+  /** True if there is a plan, so that the tour has something to show. */
   hasTour: given(false),
 };
 

@@ -73,7 +73,7 @@ export function remember(element: Chooser, asked: string): void {
   });
 }
 
-/** Whether this version no longer knows the printer, which would only be refused. */
+/** Returns true if this version no longer knows the printer, which would only be refused. */
 async function isUnknown(element: Chooser): Promise<boolean> {
   const known = await element.slicer.printers().catch(() => null);
   const { printer } = element;

@@ -39,7 +39,7 @@ function isSaved(it: unknown): it is SavedSettings {
   return typeof name === "string" && name.trim() !== "" && typeof query === "string";
 }
 
-/** Whether both are the same name to a person. */
+/** Returns true if both are the same name to a person. */
 export const isNamed = (name: string, other: string): boolean => name.trim().toLowerCase() === other.trim().toLowerCase();
 
 const COLLATOR = new Intl.Collator(undefined, { numeric: true });

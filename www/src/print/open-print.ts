@@ -56,7 +56,7 @@ function crash(system: string): ReadError {
   return { code: "crash", detail: { system } };
 }
 
-/** Whether this is an error that the reader describes. */
+/** Returns true if this is an error that the reader describes. */
 export function isCoded(error: unknown): error is PrintFileError | ReadError {
   return typeof error === "object" && error !== null && !(error instanceof Error) && "code" in error;
 }

@@ -62,7 +62,7 @@ const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
 /** Words that a catalogue translates. */
 const TRANSLATED = ["work", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
-/** Whether a sentence contains a number as the language writes it, or a name unchanged. */
+/** Returns true if a sentence contains a number as the language writes it, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {
   if (value === null) return true;
   if (typeof value === "object") return Object.entries(value).every(([key, item]) => TRANSLATED.includes(key) || says(sentence, item, format));

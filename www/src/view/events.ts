@@ -54,7 +54,7 @@ export interface ViewEvents {
   "cusp-layer": CustomEvent<number>;
   /** Where heights appear, CSS pixels from the view's upper edge; null while the view is not aligned. */
   "cusp-frame": CustomEvent<Frame | null>;
-  /** Whether the plot is beside the view, so that it could be aligned; fired when that has changed. */
+  /** True if the plot is beside the view, so that it could be aligned; fired when that has changed. */
   "cusp-beside": CustomEvent<boolean>;
   /** Rotation of the camera: turns its right, up and backward axes into the plate's frame. */
   "cusp-camera": CustomEvent<Rotation>;

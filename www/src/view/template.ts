@@ -56,7 +56,7 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
   `;
 }
 
-/** Whether the heights are those of a chart, or would be. */
+/** Returns true if the heights are those of a chart, or would be. */
 const isAligned = ({ aligned, isBeside }: Properties): boolean => aligned && isBeside !== false;
 
 /** The progress of the work under way, if there is any. */

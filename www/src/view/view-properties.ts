@@ -62,7 +62,7 @@ export const PROPERTIES = {
   plot: given<HTMLElement | null>(null),
   /** Room above and below those heights when aligned without a plot. */
   inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
-  /** Whether the camera is near the largest stair steps of the side that faces the viewer. Needs a plan. */
+  /** True if the camera is near the largest stair steps of the side that faces the viewer. Needs a plan. */
   near: given(false),
   /** Painted weight of each facet, 0 to 1; null: all 1. Ignored during a stroke. */
   weights: given<Float32Array | null>(null),
@@ -87,10 +87,10 @@ export const PROPERTIES = {
   probing: own<number | null>(null),
   /** How thick the model is, in the file's lengths; null until it is measured. */
   walls: own<Walls | null>(null),
-  /** Whether the plot is beside the view; null without a plot. */
+  /** True if the plot is beside the view; null without a plot. */
   isBeside: own<boolean | null>(null),
-  /** Whether WebGL is missing. */
+  /** True if WebGL is missing. */
   broken: own(false),
-  /** Whether the browser has taken the WebGL context away. */
+  /** True if the browser has taken the WebGL context away. */
   lost: own(false),
 };

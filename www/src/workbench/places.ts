@@ -23,7 +23,7 @@ export function isStep(sheet: Sheet | null): sheet is Step {
   return STEPS.some((step) => step === sheet);
 }
 
-/** Whether a step is about an open model; the others only set what its plan will be. */
+/** Returns true if a step is about an open model; the others only set what its plan will be. */
 export function needsModel(step: Step): boolean {
   return step === "turn" || step === "check";
 }

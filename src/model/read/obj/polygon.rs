@@ -112,7 +112,7 @@ fn area(a: DVec2, b: DVec2, c: DVec2) -> f64 {
     (b - a).perp_dot(c - a)
 }
 
-/// Whether a point is inside a counter-clockwise triangle or on its edge.
+/// Returns true if a point is inside a counter-clockwise triangle or on its edge.
 fn is_inside(point: DVec2, [a, b, c]: [DVec2; 3]) -> bool {
     area(a, b, point) >= 0.0 && area(b, c, point) >= 0.0 && area(c, a, point) >= 0.0
 }

@@ -38,7 +38,7 @@ pub(super) fn read(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     Ok(triangles)
 }
 
-/// Whether a file with these first bytes and this length is an STL.
+/// Returns true if a file with these first bytes and this length is an STL.
 pub(super) fn is_stl(head: &[u8], length: u64) -> bool {
     is_binary(head, length) || looks_like_text(head)
 }
@@ -88,7 +88,7 @@ fn binary_length(facets: u64) -> u64 {
     BINARY_HEADER_BYTES as u64 + facets * BINARY_FACET_BYTES as u64
 }
 
-/// Whether the file begins as an ASCII STL does: `solid`, then no zero byte in the first lines.
+/// Returns true if the file begins as an ASCII STL does: `solid`, then no zero byte in the first lines.
 fn looks_like_text(bytes: &[u8]) -> bool {
     let head = &bytes[..bytes.len().min(1024)];
     let word = head.trim_ascii_start();
@@ -125,7 +125,7 @@ fn read_binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
 struct Words<'a> {
     rest: &'a [u8],
     line: u64,
-    /// Whether the last `solid` shared its line with what follows its name.
+    /// True if the last `solid` shared its line with what follows its name.
     is_run_on: bool,
 }
 
@@ -215,7 +215,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Whether this is the next word of the line.
+    /// Returns true if this is the next word of the line.
     fn is_next(&self, word: &str) -> bool {
         is(split_word(trim_blanks(self.rest)).0, word)
     }

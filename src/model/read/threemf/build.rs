@@ -29,7 +29,7 @@ pub struct Build<'a> {
     /// Facets and components that were placed.
     placed: usize,
     settings: &'a Settings,
-    /// Whether surfaces are placed, too.
+    /// True if surfaces are placed, too.
     surfaces: bool,
     pub triangles: Triangles,
     /// The facets of parts that are subtracted.

@@ -27,9 +27,9 @@ pub struct Model {
 /// An object that can be built, or be a component of others.
 #[derive(Default)]
 pub struct Object {
-    /// Whether it is printed as a solid: a model or a solid support.
+    /// True if it is printed as a solid: a model or a solid support.
     pub is_solid: bool,
-    /// Whether it is a surface, which need not enclose anything.
+    /// True if it is a surface, which need not enclose anything.
     pub is_surface: bool,
     pub vertices: Vec<Vec3>,
     pub facets: Vec<[u32; 3]>,
@@ -44,7 +44,7 @@ pub struct Reference {
     /// The part that has it, if it is another.
     pub part: Option<String>,
     pub transform: DAffine3,
-    /// Whether it is to be printed.
+    /// True if it is to be printed.
     pub is_printable: bool,
     /// Line of the reference.
     pub line: u64,

@@ -58,7 +58,7 @@ impl<'a> Package<'a> {
         })
     }
 
-    /// Whether a part has a name that ends so, whatever the case of its letters.
+    /// Returns true if a part has a name that ends so, whatever the case of its letters.
     pub fn has_ending(&self, end: &str) -> bool {
         let mut names = self.entries.iter().map(|entry| entry.name.as_bytes());
         names.any(|name| {

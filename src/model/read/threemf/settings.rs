@@ -60,7 +60,7 @@ impl Settings {
         ranges.find_map(|(range, part)| range.contains(&facet).then_some(part))
     }
 
-    /// Whether any facets of an object are no solid.
+    /// Returns true if any facets of an object are no solid.
     pub fn has_ranges(&self, object: u32) -> bool {
         self.ranges.contains_key(&object)
     }

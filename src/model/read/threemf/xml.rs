@@ -19,7 +19,7 @@ pub enum Tag<'b> {
         /// Its name, with the prefix.
         name: &'b [u8],
         attributes: Attributes<'b>,
-        /// Whether it is the end of the element as well.
+        /// True if it is the end of the element as well.
         is_empty: bool,
     },
     /// The end of an element.

@@ -30,7 +30,7 @@ export class Assessment {
     return this.#checked?.of === of ? this.#checked.check : null;
   }
 
-  /** Whether what the shop needs to know of a plan could not be found out. */
+  /** Returns true if what the shop needs to know of a plan could not be found out. */
   hasFailed(of: Result): boolean {
     return this.#failed === of;
   }

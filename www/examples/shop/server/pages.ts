@@ -5,7 +5,7 @@ import { extname, join, relative, sep } from "node:path";
 export interface PageFile {
   type: string;
   bytes: Buffer;
-  /** Whether its name changes with its content. */
+  /** True if its name changes with its content. */
   isHashed: boolean;
 }
 

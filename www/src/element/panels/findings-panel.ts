@@ -37,7 +37,7 @@ const PROPERTIES = {
   /** Why the plan could not be checked. */
   error: given<SlicerError | null>(null),
   chosen: given<Finding | null>(null),
-  /** Whether there is a view to show how thick the walls of the selected model are. */
+  /** True if there is a view to show how thick the walls of the selected model are. */
   hasView: given(true),
   showsWalls: given(false),
   /** What counts as a thin wall, mm. */

@@ -64,7 +64,7 @@ const PROPERTIES = {
   model: given<Model | null>(null),
   /** The positions of the model, if they came with it. */
   corners: given<Float32Array | null>(null),
-  /** Whether the first plan of the model is being made. It is shown first: what the view does takes processors away from it. */
+  /** True if the first plan of the model is being made. It is shown first: what the view does takes processors away from it. */
   isPlanning: given(false),
   shown: given<Shown | null>(null),
   layer: given(0),
@@ -85,14 +85,14 @@ const PROPERTIES = {
   language: given(languageOf()),
   /** The chart's plot and its heights, which the view aligns with where the plot is beside it; null without a chart. */
   plot: given<PlotPlace | null>(null),
-  /** Whether the plot is beside the view. */
+  /** True if the plot is beside the view. */
   canAlign: own(false),
   positions: own<Float32Array | null>(null),
-  /** Whether the view has been fetched. */
+  /** True if the view has been fetched. */
   isThere: own(false),
-  /** Whether it could not be fetched. */
+  /** True if it could not be fetched. */
   isMissing: own(false),
-  /** Whether the browser has no WebGL. */
+  /** True if the browser has no WebGL. */
   isBroken: own(false),
   tool: own<Tool>("turn"),
   look: own<Look>("thickness"),
@@ -330,13 +330,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
     requestAnimationFrame(() => (this.canAlign = this.#canAlign));
   };
 
-  /** Whether the view shows weights: while they are painted, and while supports or holes are placed that keep off the largest ones. */
+  /** Returns true if the view shows weights: while they are painted, and while supports or holes are placed that keep off the largest ones. */
   get #showsHeat(): boolean {
     const { tool, colours, settings, weights } = this;
     return tool === "paint" ? colours !== "layers" : places(tool) && settings.spare === "on" && (weights !== null || this.#counts);
   }
 
-  /** Whether saliency counts in the plan. */
+  /** Returns true if saliency counts in the plan. */
   get #counts(): boolean {
     return this.settings.saliency === "on";
   }

@@ -45,7 +45,7 @@ const PROPERTIES = {
   language: given(languageOf()),
   /** The candidate that is pointed at, or chosen on the sphere. */
   looked: own<Looked | null>(null),
-  /** Whether the code that draws the thumbnails could not be fetched. */
+  /** True if the code that draws the thumbnails could not be fetched. */
   isUnpictured: own(false),
 };
 

@@ -23,7 +23,7 @@ const MARK_REACH = 0.1;
 /** The candidate whose metrics are shown. */
 export interface Looked {
   readonly candidate: Candidate;
-  /** Whether it stays when the pointer leaves. */
+  /** True if it stays when the pointer leaves. */
   readonly isChosen: boolean;
 }
 
@@ -68,7 +68,7 @@ const PROPERTIES = {
 };
 
 export class CuspSphere extends elementWith(PROPERTIES) {
-  /** Whether the last press was a touch: not every browser's click event says so. */
+  /** True if the last press was a touch: not every browser's click event says so. */
   #isTouched = false;
   #nearest: { of: Float64Array; nearest: Nearest } | null = null;
   readonly #resized = new ResizeObserver(() => this.#draw());

@@ -14,7 +14,7 @@ export interface PaintTools {
   readonly brush: Brush;
   readonly colours: Colours;
   readonly settings: Pick<Settings, "saliency" | "weightMin">;
-  /** Whether saliency is being computed. */
+  /** True if saliency is being computed. */
   readonly isFinding: boolean;
   readonly canUndo: boolean;
   readonly canRedo: boolean;

@@ -44,7 +44,7 @@ const PROPERTIES = {
   zoomed: own(false),
   /** The bin under the pointer, or where somebody tapped. */
   hovered: own<number | null>(null),
-  /** Whether uPlot could not be loaded. */
+  /** True if uPlot could not be loaded. */
   failed: own(false),
 };
 
@@ -58,7 +58,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
   /** The colours of the canvas are those of the page when it is drawn. */
   readonly #schemes = ["(prefers-color-scheme: dark)", "(forced-colors: active)"].map((query) => matchMedia(query));
   readonly #redraw = (): void => this.#build();
-  /** Whether the last pointer was a finger: what it tapped stays, although browsers let their mouse of a finger leave at once. */
+  /** True if the last pointer was a finger: what it tapped stays, although browsers let their mouse of a finger leave at once. */
   #isTouched = false;
   readonly #gestures = new ZoomGestures({
     shown: () => this.#shown,

@@ -53,7 +53,7 @@ const PROPERTIES = {
   /** From the tightest tolerance to the loosest; null while they are being computed. */
   points: given<readonly TradeoffPoint[] | null>(null),
   result: given<Result | null>(null),
-  /** Whether only the page may change the tolerance. */
+  /** True if only the page may change the tolerance. */
   isFixed: given(false),
   language: given(languageOf()),
 };

@@ -26,7 +26,7 @@ export type Fields = "all" | "hollow" | "supports" | "slice";
 
 const STRENGTHS = ["none", "light", "medium", "heavy"] as const;
 
-/** Whether the form shows the field of a problem, so that the problem can be shown beside it. */
+/** Returns true if the form shows the field of a problem, so that the problem can be shown beside it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
   if (field === null) return false;
   if (field === "printer") return printers.length > 0;
@@ -77,12 +77,12 @@ const PROPERTIES = {
   problem: given<Problem | null>(null),
   towers: given<TowersState>("waiting"),
   language: given(languageOf()),
-  /** Whether the description of one's own printer is to be opened. */
+  /** True if the description of one's own printer is to be opened. */
   isOpening: own(false),
 };
 
 export class CuspSettings extends elementWith(PROPERTIES) {
-  /** Whether the hidden settings are expanded at first; null before any settings are given. */
+  /** True if the hidden settings are expanded at first; null before any settings are given. */
   #moreAtFirst: boolean | null = null;
   /** The last printer of one's own. */
   #own: Printer | null = null;

@@ -6,9 +6,9 @@ import type { Tool } from "../../view/scene/keys.js";
 export interface ViewBar {
   readonly tool: Tool;
   readonly isPrinted: boolean;
-  /** Whether the distances from the model are shown. */
+  /** True if the distances from the model are shown. */
   readonly isMeasured: boolean;
-  /** Whether colours are safe for the colour-blind. */
+  /** True if colours are safe for the colour-blind. */
   readonly isSafe: boolean;
   readonly isAligned: boolean;
   /**
@@ -16,9 +16,9 @@ export interface ViewBar {
    * its height with it, the chart could be beside the view only as long as it is not.
    */
   readonly isBeside: boolean | null;
-  /** Whether the model stands otherwise than in its file. */
+  /** True if the model stands otherwise than in its file. */
   readonly isTurned: boolean;
-  /** Whether there is a 3-D view. */
+  /** True if there is a 3-D view. */
   readonly isPossible: boolean;
   /** The tools that there is something for, besides those that there always is. */
   readonly offered: ReadonlySet<Tool>;

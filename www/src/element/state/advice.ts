@@ -26,7 +26,7 @@ export function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format
 export interface Advice {
   text: string;
   offers: Offer[];
-  /** Whether test towers would tell if the printer takes several thicknesses. */
+  /** True if test towers would tell if the printer takes several thicknesses. */
   towers: boolean;
   /** The plates of the project that the model was read from; null for other warnings. */
   plates: PlateChoice | null;
@@ -73,7 +73,7 @@ export function adviseOn(all: readonly Warned[], language: Language, fixed: Read
 
 const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
 
-/** Whether the printer decides on several thicknesses, not the format. */
+/** Returns true if the printer decides on several thicknesses, not the format. */
 const isOfPrinter = (warning: Warning): boolean =>
   warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
 

@@ -104,7 +104,7 @@ export class Attributes {
     }
   }
 
-  /** Whether the setting is still as given. */
+  /** Returns true if the setting is still as given. */
   #holds({ after }: Given): boolean {
     const { settings } = this.#preferences;
     return (Object.keys(after) as (keyof Settings)[]).every((key) => settings[key] === after[key]);

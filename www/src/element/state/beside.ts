@@ -22,7 +22,7 @@ export interface Asked extends Omit<Ordered, "copies"> {
 }
 
 export interface BesideHost {
-  /** Whether no task is running. */
+  /** Returns true if no task is running. */
   isFree(): boolean;
   changed(): void;
   /** The curve has arrived. */
@@ -83,7 +83,7 @@ export class Beside {
     }
   }
 
-  /** Whether the price is that of the result. */
+  /** Returns true if the price is that of the result. */
   get isPriced(): boolean {
     return this.#priceOf === this.#looked.result;
   }

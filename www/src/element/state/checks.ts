@@ -59,7 +59,7 @@ export class Checks {
     this.#host.wanted();
   }
 
-  /** Whether a panel shows the findings. */
+  /** Returns true if a panel shows the findings. */
   get isOpen(): boolean {
     return this.#isOpen;
   }
@@ -72,7 +72,7 @@ export class Checks {
     if (isOpen) this.#host.wanted();
   }
 
-  /** Whether the view shows how thick the model is: a picture, which no check depends on. */
+  /** Returns true if the view shows how thick the model is: a picture, which no check depends on. */
   get showsWalls(): boolean {
     return this.#showsWalls;
   }
@@ -86,7 +86,7 @@ export class Checks {
     return this.#limits?.wall_mm ?? WALL_MM;
   }
 
-  /** Whether the last check or its failure is that of the plan shown. */
+  /** Returns true if the last check or its failure is that of the plan shown. */
   get isCurrent(): boolean {
     return this.#of !== null && this.#isNow(this.#of);
   }

@@ -18,7 +18,7 @@ export interface Row {
   print_time_s: number;
   /** In the metric's unit. */
   max_error: number;
-  /** Whether the error stays within the tolerance. */
+  /** True if the error stays within the tolerance. */
   holds: boolean;
 }
 

@@ -10,14 +10,14 @@ import type { Settings } from "./settings.js";
 
 /** A point as the plan has it. */
 export interface HandPoint extends Placed {
-  /** Whether no support gets there, or the hole meets no void. */
+  /** True if no support gets there, or the hole meets no void. */
   readonly isUnreached: boolean;
 }
 
 export interface HandPoints {
   readonly kind: PlacedKind;
   readonly list: readonly HandPoint[];
-  /** Whether that is all there is: not while the plan has yet to say which are placed automatically. */
+  /** True if that is all there is: not while the plan has yet to say which are placed automatically. */
   readonly isWhole: boolean;
 }
 
@@ -56,7 +56,7 @@ export function pointsOf(kind: PlacedKind, { settings, options, result, isCurren
   return { kind, list, isWhole: !isAutomatic || planned !== null };
 }
 
-/** Whether the points of a setting are used. */
+/** Returns true if the points of a setting are used. */
 const isPlaced = (kind: PlacedKind, { supports }: Settings): boolean => kind === "drains" || supports !== "none";
 
 function isSamePose(a: Options, b: Options | null): boolean {

@@ -11,7 +11,7 @@ import type { SyncCalls } from "./sync.js";
 /** What a session reports to its host. */
 export interface Host {
   requestUpdate(): void;
-  /** Whether it shows the model. */
+  /** Returns true if it shows the model. */
   hasView?(): boolean;
   loaded?(model: Model): void;
   planned?(result: Result): void;

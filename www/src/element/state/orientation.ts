@@ -73,12 +73,12 @@ export class OrientationSearch {
     return this.#of?.options ?? null;
   }
 
-  /** Whether a search can start. */
+  /** Returns true if a search can start. */
   get isPossible(): boolean {
     return this.#host.subject() !== null;
   }
 
-  /** Whether a search started now would give the same result. */
+  /** Returns true if a search started now would give the same result. */
   get isCurrent(): boolean {
     const now = this.#host.subject();
     return now !== null && this.#of?.weights === now.weights && this.#keys.has(keyOf(now.options));
@@ -198,7 +198,7 @@ function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, supports, ba
   return JSON.stringify(height_mm === undefined ? { ...options, sizes } : { ...options, sizes, height_mm, rotation });
 }
 
-/** Whether two rotations are the same pose, to the digits that settings keep. */
+/** Returns true if two rotations are the same pose, to the digits that settings keep. */
 export function isPose(one: Rotation | undefined, other: Rotation): boolean {
   return one !== undefined && rotationText(one) === rotationText(other);
 }

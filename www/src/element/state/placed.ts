@@ -8,7 +8,7 @@ export interface Placed {
   readonly inward: Triple | null;
   /** Of the contact or of the hole; null for that of the strength. */
   readonly diameter_mm: number | null;
-  /** Whether it stays where it is when the others are placed anew. */
+  /** True if it stays where it is when the others are placed anew. */
   readonly isLocked: boolean;
 }
 

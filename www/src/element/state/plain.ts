@@ -1,6 +1,6 @@
 /** Plain data as a page gives it: objects, lists and arrays of numbers. */
 
-/** Whether both have the same content. */
+/** Returns true if both have the same content. */
 export function isEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;
   if (a instanceof Float32Array && b instanceof Float32Array) return a.length === b.length && a.every((it, i) => Object.is(it, b[i]));

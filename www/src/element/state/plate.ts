@@ -109,7 +109,7 @@ export class Plate {
   readonly #sync: Sync;
   #keys = 0;
   #job = 0;
-  /** Whether a copy is being moved and has not been released. */
+  /** True if a copy is being moved and has not been released. */
   #isMoving = false;
   #drags = 0;
   /** The last answers of `copies` and `crowded`: a new object would count as a change. */
@@ -128,7 +128,7 @@ export class Plate {
     this.#sync = new Sync(slicer);
   }
 
-  /** Whether the job is more than one copy of one model. */
+  /** Returns true if the job is more than one copy of one model. */
   get isSeveral(): boolean {
     return this.entries.length > 1 || (this.entries[0]?.copies ?? 0) > 1;
   }

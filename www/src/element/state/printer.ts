@@ -32,7 +32,7 @@ export function printerOf(chosen: ChosenPrinter | undefined, known: readonly Kno
   return known.find(({ name }) => name === chosen) ?? null;
 }
 
-/** Whether the fields that are shown have the right types. */
+/** Returns true if the fields that are shown have the right types. */
 export function isPrinter(value: unknown): value is Printer {
   if (typeof value !== "object" || value === null) return false;
   const { model = "", pixels, pitch_um, volume_mm, layer_mm = [1, 1], format = "png", reads = [] } = value as Record<string, unknown>;

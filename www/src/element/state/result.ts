@@ -54,7 +54,7 @@ export function shownOf(report: Report | Preview, profile: Float32Array, added: 
 
 const filled = (positions: Float32Array | undefined): Float32Array | null => (positions === undefined || positions.length === 0 ? null : positions);
 
-/** Whether two sets of options, with their keys in the same order, ask for the same plan. */
+/** Returns true if two sets of options, with their keys in the same order, ask for the same plan. */
 export function areSame(a: Options | null, b: Options | null): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }

@@ -41,7 +41,7 @@ export class Session extends Models {
   #next: Options | null = null;
   /** The weights of the result. */
   #weightsOf: Float32Array | null = null;
-  /** Whether the newest plan has not succeeded. */
+  /** True if the newest plan has not succeeded. */
   #failed = false;
   /** What the core has refused to plan: it would refuse it again. */
   #refused: { options: Options; weights: Float32Array | null } | null = null;
@@ -105,7 +105,7 @@ export class Session extends Models {
     return this.#follower.turning;
   }
 
-  /** Whether test towers for the printer can be written now. */
+  /** Returns true if test towers for the printer can be written now. */
   get towers(): TowersState {
     if (this.busy?.task === "towers") return "writing";
     return this.busy === null && this.options !== null ? "ready" : "waiting";
@@ -127,12 +127,12 @@ export class Session extends Models {
     );
   }
 
-  /** Whether a change of settings waits for a pause before it is planned. */
+  /** Returns true if a change of settings waits for a pause before it is planned. */
   get isPending(): boolean {
     return this.#timer !== undefined;
   }
 
-  /** Whether the result shown is for earlier settings, because the current ones give none. */
+  /** Returns true if the result shown is for earlier settings, because the current ones give none. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
   }
@@ -188,12 +188,12 @@ export class Session extends Models {
     return wanted ?? (this.result === null ? null : this.#curve.placeOf(this.result.report));
   }
 
-  /** Whether the result is for the current settings and weights. */
+  /** Returns true if the result is for the current settings and weights. */
   get isCurrent(): boolean {
     return this.result !== null && areSame(this.result.options, this.options) && this.#weightsOf === this.weights;
   }
 
-  /** Whether planning with the current settings may succeed: they are valid, and the core has not refused them. */
+  /** Returns true if planning with the current settings may succeed: they are valid, and the core has not refused them. */
   get canPlan(): boolean {
     const { options, weights } = this;
     return options !== null && !(areSame(this.#refused?.options ?? null, options) && this.#refused?.weights === weights);

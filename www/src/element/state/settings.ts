@@ -35,17 +35,17 @@ interface Choices {
   minimize: Minimize;
   snap: Snap;
   rays: string;
-  /** Whether facets that stand out count for more. */
+  /** True if facets that stand out count for more. */
   saliency: "off" | "on";
   /** How strong supports are. */
   supports: "none" | SupportStrength;
-  /** Whether more are placed automatically beside those by hand. */
+  /** True if more are placed automatically beside those by hand. */
   fill: "off" | "on";
-  /** Whether automatic ones, and automatic drain holes, keep off what is painted as important. */
+  /** True if automatic ones, and automatic drain holes, keep off what is painted as important. */
   spare: "off" | "on";
   /** What stands in the void of a hollow model. */
   infill: "none" | "lattice";
-  /** Whether a hollow model gets drain holes automatically. */
+  /** True if a hollow model gets drain holes automatically. */
   drain: "auto" | "none";
   /** The minimum weight of a facet. */
   weightMin: string;

@@ -68,7 +68,7 @@ function tidied(text: string): string {
   return text.replace(/[¹²³⁰-₉]/g, "^$&").normalize("NFKC").trim().toLowerCase();
 }
 
-/** Whether digits that might be thousands are certainly a number with a decimal mark. */
+/** Returns true if digits that might be thousands are certainly a number with a decimal mark. */
 function isPlain(digits: string, decimal: string | undefined): boolean {
   const [mark, ...more] = digits.replace(/\d/g, "");
   if (more.length > 0 || (mark !== "." && mark !== ",")) return false;

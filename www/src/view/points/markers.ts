@@ -10,7 +10,7 @@ export interface ViewPoint {
   /** x and y from the model's middle, z from its lowest point, mm: how far the model is lifted does not matter. */
   readonly at_mm: Triple;
   readonly isLocked: boolean;
-  /** Whether nothing gets there. */
+  /** True if nothing gets there. */
   readonly isUnreached: boolean;
   /** The way in and the diameter of a hole, of which the rim is drawn. */
   readonly inward?: Triple | null;

@@ -139,7 +139,7 @@ export class Placing {
     return within(at, places, reach_px).find((place) => !this.#isHidden(this.#pointAt(place), eye)) ?? null;
   }
 
-  /** Whether the model hides a point from an eye, both on the plate. */
+  /** Returns true if the model hides a point from an eye, both on the plate. */
   #isHidden(point: Vector3, eye: Vector3): boolean {
     const ray = this.#scene.inFile(new Ray(eye, point.clone().sub(eye).normalize()));
     const hit = this.#derived?.raycast?.cast(ray) ?? null;

@@ -5,7 +5,7 @@ import { sighted } from "./sight.js";
 
 const FRONT: Viewpoint = { position: [0, -100, 0], target: [0, 0, 0] };
 
-/** Whether a ball about the middle hides a point of itself from a place: it is seen from beyond its tangent plane. */
+/** Returns true if a ball about the middle hides a point of itself from a place: it is seen from beyond its tangent plane. */
 const beyond = (point: Vector3) => ({ position }: Viewpoint): boolean => new Vector3(...position).dot(point) > point.lengthSq();
 
 const turned_deg = ({ position: [x, y, z] }: Viewpoint): number => (180 / Math.PI) * Math.acos(-y / Math.hypot(x, y, z));

@@ -236,7 +236,7 @@ export class Cameras {
     return this.#flight?.to ?? this.#viewpoint;
   }
 
-  /** Whether a camera there has a point of the scene in its view, where nothing hides it, and not at the very edge. */
+  /** Returns true if a camera there has a point of the scene in its view, where nothing hides it, and not at the very edge. */
   shows(from: Viewpoint, point: Vector3): boolean {
     const { x, y, z } = point.clone().project(this.tried(from));
     return Math.max(Math.abs(x), Math.abs(y)) < SIGHT && z < 1;

@@ -22,7 +22,7 @@ export interface Copy {
   readonly y_mm: number;
   /** Counter-clockwise as seen from above. */
   readonly turn_deg: number;
-  /** Whether it overlaps another, or extends beyond the plate. */
+  /** True if it overlaps another, or extends beyond the plate. */
   readonly isCrowded: boolean;
   /** Nine numbers a facet, mm from the plate, for a copy in the middle that is not turned; copies of one model share it. */
   readonly supports: Float32Array | null;

@@ -57,7 +57,7 @@ export class Gizmo {
     addEventListener("keyup", this.#snap);
   }
 
-  /** Whether the pointer is over a ring or drags one. */
+  /** Returns true if the pointer is over a ring or drags one. */
   get isHot(): boolean {
     return this.#controls.axis !== null || this.#controls.dragging;
   }

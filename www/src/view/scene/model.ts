@@ -94,7 +94,7 @@ export class Model {
   #palette = paletteTexture("classic");
   readonly #heatPalette = paletteTexture(HEAT_PALETTE);
   #heat = heatTexture(1);
-  /** Whether the GPU has the heat of every facet, so that only changes need uploading. */
+  /** True if the GPU has the heat of every facet, so that only changes need uploading. */
   #hasHeat = false;
   /** Rows of the texture that have changed since. */
   readonly #stale = new Set<number>();

@@ -1,5 +1,5 @@
 /** Apart from the keys, since the page asks this before it has the view. */
 import type { Tool } from "./keys.js";
 
-/** Whether the tool places points. */
+/** Returns true if the tool places points. */
 export const places = (tool: Tool): boolean => tool === "supports" || tool === "drains";

@@ -90,9 +90,9 @@ export class Scene {
   /** Size of the canvas, which follows that of the view when a picture of that size is there. */
   #fitted: readonly [number, number] = [0, 0];
   #asked = 0;
-  /** Whether the browser has yet to fetch what is on the canvas, or the empty canvas. */
+  /** True if the browser has yet to fetch what is on the canvas, or the empty canvas. */
   #isUnfetched = true;
-  /** Whether something has changed since the offscreen picture under way was started. */
+  /** True if something has changed since the offscreen picture under way was started. */
   #isStale = false;
   #isGone = false;
   #tool: Tool = "turn";
@@ -135,7 +135,7 @@ export class Scene {
     if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
   };
 
-  /** Whether a GPU draws: see `contextOf`. */
+  /** Returns true if a GPU draws: see `contextOf`. */
   get isSmooth(): boolean {
     return this.#renderer.getContext().getContextAttributes()?.antialias === true;
   }

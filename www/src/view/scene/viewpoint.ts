@@ -44,7 +44,7 @@ export function between(from: Viewpoint, to: Viewpoint, part: number): Viewpoint
   };
 }
 
-/** Whether two places are the same but for rounding. */
+/** Returns true if two places are the same but for rounding. */
 export function areSame(a: Viewpoint, b: Viewpoint): boolean {
   const near = 1e-4 * polar(a)[0];
   return [0, 1, 2].every(

@@ -179,7 +179,7 @@ export function simplified(contour: Contour, tolerance_mm: number): Contour {
   const x = (i: number): number => contour[2 * ((start + i) % count)] ?? 0;
   const y = (i: number): number => contour[2 * ((start + i) % count) + 1] ?? 0;
 
-  /** Whether the points strictly between two lie on the segment that joins the two. */
+  /** Returns true if the points strictly between two lie on the segment that joins the two. */
   const areOnLine = (from: number, to: number): boolean => {
     const [dx, dy] = [x(to) - x(from), y(to) - y(from)];
     const length = Math.hypot(dx, dy);

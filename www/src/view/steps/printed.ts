@@ -24,7 +24,7 @@ export interface PrintedReports {
   steps(steps: Steps | null): void;
 }
 
-/** Whether two jobs have the same steps. */
+/** Returns true if two jobs have the same steps. */
 function areSame(a: Job | null, b: Job | null): boolean {
   if (a === null || b === null) return a === b;
   return a.derived === b.derived && a.rotation === b.rotation && a.scale === b.scale && a.z_mm === b.z_mm;

@@ -39,7 +39,7 @@ interface Polygon {
   readonly area: number;
 }
 
-/** Whether the point is inside the outline, by the parity of crossings. */
+/** Returns true if the point is inside the outline, by the parity of crossings. */
 function isInside(outline: Contour, x: number, y: number): boolean {
   let inside = false;
   for (let i = 0, j = outline.length - 2; i < outline.length; j = i, i += 2) {
