@@ -212,7 +212,7 @@ impl Job {
         }
     }
 
-    /// What is wrong with the placements of these options: copies that extend beyond their plate, and copies that overlap.
+    /// Problems with the placements of these options: copies that extend beyond their plate, and copies that overlap.
     ///
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].

@@ -24,7 +24,7 @@ pub struct Failure {
     pub problem: Option<Box<Problem>>,
 }
 
-/// What failed, for programs.
+/// A failure, for programs.
 #[derive(Debug, Clone, Serialize, schemars::JsonSchema)]
 pub struct Problem {
     /// The code of the library's error; `file` if a file cannot be read or written, `usage` if the command line is wrong.
@@ -54,7 +54,7 @@ impl Problem {
     }
 }
 
-/// What a command prints in JSON when it fails.
+/// The JSON of a command that fails.
 #[derive(Serialize, schemars::JsonSchema)]
 pub struct Failed {
     /// Why.

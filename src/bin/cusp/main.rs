@@ -158,10 +158,10 @@ enum Command {
     },
     /// Print the JSON Schema of what a command prints, or of a file that it reads
     Schema {
-        /// What it describes
+        /// Name of the report or of the file
         #[arg(value_parser = schemas::schema_name(), required_unless_present = "output")]
         name: Option<String>,
-        /// Where to write all of them, as plan.schema.json and so on
+        /// Folder for all of them, as plan.schema.json and so on
         #[arg(short, long, value_name = "FOLDER", conflicts_with = "name")]
         output: Option<PathBuf>,
     },

@@ -47,11 +47,11 @@ pub struct Simulating {
     mirror: Option<bool>,
 }
 
-/// What is measured.
+/// The models to measure, as they are in their files.
 struct Originals {
     paths: Vec<PathBuf>,
     models: Vec<Original>,
-    /// Where a job file says that they stand.
+    /// Their copies, by the job file.
     copies: Vec<PrintedCopy>,
 }
 
@@ -111,7 +111,7 @@ impl Originals {
 }
 
 impl Simulating {
-    /// What is known besides the print file.
+    /// Knowledge besides the print file.
     fn knowledge(&self, copies: Vec<PrintedCopy>) -> Knowledge {
         let pose = Pose {
             rotation: self.rotation,
