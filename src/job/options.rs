@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use crate::arrange::{ArrangeError, Arranging};
 use crate::filament::{FilamentSlicer, USUAL_NOZZLE_MM};
 use crate::format::Format;
-use crate::model::ModelUnit;
+use crate::model::{ModelUnit, Pose};
 use crate::plan::HeightRange;
 use crate::prepare::{Hollowing, Supporting};
 use crate::printer::PrinterChoice;
@@ -373,6 +373,17 @@ pub struct Placement {
     /// Turn about z after the rotation, counter-clockwise as seen from above: a multiple of 15.
     #[serde(default)]
     pub turn_deg: u32,
+}
+
+impl ModelOptions {
+    /// The pose of the model before turns: its own, or else that of the job.
+    pub fn pose_over(&self, shared: Pose) -> Pose {
+        Pose {
+            rotation: self.rotation.or(shared.rotation),
+            height_mm: self.height_mm.or(shared.height_mm),
+            ..shared
+        }
+    }
 }
 
 impl Placement {

@@ -41,7 +41,7 @@ pub struct ModelPrintability {
     pub model: usize,
     /// Turn about z of the copies that it is about. Findings are at places of the turned model, as if it stood in the middle.
     pub turn_deg: u32,
-    /// What was found on it, as if it stood alone.
+    /// Findings on it, as if it stood alone.
     #[serde(flatten)]
     pub found: Printability,
 }
@@ -243,7 +243,7 @@ impl Job {
         self.plate_mut(plate)?.write_file(encoded, writer, progress)
     }
 
-    /// What will fail on each model of a plate, by these limits: each is checked as if it stood alone, in the layers of the plate.
+    /// Findings on each model of a plate, by these limits: each is checked as if it stood alone, in the layers of the plate.
     ///
     /// # Errors
     /// [`Error::NoPlan`], [`Error::Limits`], [`Error::Arrange`]; [`Error::Ldi`] if `progress` cancels.

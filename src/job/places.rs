@@ -201,14 +201,12 @@ impl Job {
 
     /// The pose of a model before turns.
     pub(super) fn pose_of(&self, options: &JobOptions, resolved: &Resolved, model: usize) -> Pose {
-        let own = options.of_model(model);
-        let shared = &resolved.sampling.pose;
+        let pose = options.of_model(model).pose_over(resolved.sampling.pose);
         Pose {
-            rotation: own.rotation.or(shared.rotation),
-            height_mm: own.height_mm.or(shared.height_mm),
-            unit: shared
+            unit: pose
                 .unit
                 .filter(|_| self.models[model].facts.unit.is_none()),
+            ..pose
         }
     }
 

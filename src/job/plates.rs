@@ -242,7 +242,7 @@ pub struct LayerGroups {
     left: usize,
     /// The format of the plan's print file.
     pub format: Format,
-    /// What its masks are drawn on.
+    /// The canvas of its masks.
     pub canvas: Canvas,
 }
 

@@ -35,7 +35,7 @@ use hidden::Visibility;
 use nearest::Facets;
 use printed::Printed;
 
-/// What is known about a print file besides what it says. Given values take precedence over the file's.
+/// Knowledge about a print file besides what it says. Given values take precedence over the file's.
 #[derive(Debug, Clone, Default)]
 pub struct Knowledge {
     /// The pose of each model before turns.
@@ -46,7 +46,7 @@ pub struct Knowledge {
     pub is_mirrored: Option<bool>,
 }
 
-/// A model as it is in its file.
+/// A model in the frame of its file.
 #[derive(Debug, Clone)]
 pub struct Original {
     /// Its mesh, with holes capped.
@@ -93,7 +93,7 @@ pub struct Simulation {
     pub height_mm: f64,
     /// Number of copies of models.
     pub copies: usize,
-    /// Extent of the model in x, y and z, as it stands; that of all copies together.
+    /// Extent in x, y and z of the model in its pose, or of all copies together.
     pub model_mm: [f64; 3],
     /// Columns and rows of the masks.
     pub pixels: [u32; 2],
@@ -136,8 +136,10 @@ pub fn simulate(
     }
     let stated = file.copies().unwrap_or(&knowledge.copies);
     let is_stated = !stated.is_empty();
+    // As in its file, in the middle.
+    let alone = [PrintedCopy::default()];
     let copies = match (stated, models) {
-        ([], [_]) => &[IN_THE_MIDDLE],
+        ([], [_]) => &alone,
         ([], _) => return Err(SimulationError::NoPlaces),
         _ => stated,
     };
@@ -179,18 +181,6 @@ pub fn simulate(
         model_to_print: deviation(&from_model),
     })
 }
-
-/// A model alone, of which nothing is known.
-const IN_THE_MIDDLE: PrintedCopy = PrintedCopy {
-    model: 0,
-    pose: Pose {
-        rotation: None,
-        height_mm: None,
-        unit: None,
-    },
-    turn_deg: 0,
-    middle_mm: [0.0; 2],
-};
 
 /// All copies at their places, in one mesh.
 fn standing(

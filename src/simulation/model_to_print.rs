@@ -264,7 +264,7 @@ impl<'a> Survey<'a> {
         cut.met.is_empty() || !is_hidden(self.facets, cut.facet, point)
     }
 
-    /// Returns true if no corner is farther from a point of the printed surface than the greatest distances so far, but for the
+    /// Returns true if no corner is farther from a point of the printed surface than the greatest distances so far, except for the
     /// precision.
     fn is_within(&self, triangle: &Triangle, point: DVec3) -> bool {
         let bound = triangle.map(|corner| corner.distance_squared(point));

@@ -16,6 +16,9 @@ use wasm_bindgen::prelude::JsValue;
 /// nearest known name, as on the command line.
 pub fn read<T: DeserializeOwned>(value: &JsValue) -> Result<T, String> {
     let value = Given { value, depth: 0 };
+    if let Some(fault) = value.fault() {
+        return Err(fault.to_owned());
+    }
     T::deserialize(value).map_err(|error| with_nearest(&error.to_string()).into_owned())
 }
 
@@ -55,7 +58,7 @@ impl Given<'_> {
         Some(self.inside(Object::entries(object)))
     }
 
-    /// What is wrong with it, whatever is expected.
+    /// The fault that it has whatever is expected.
     fn fault(self) -> Option<&'static str> {
         if self.depth > MOST_DEPTH {
             Some("objects lie inside each other more than 16 deep")

@@ -90,7 +90,7 @@ pub(super) fn rows(
     Ok(())
 }
 
-/// Returns true if a PNG of this length can hold so many pixels, of at least one bit each.
+/// Returns true if a PNG of this length can hold this many pixels, of at least one bit each.
 fn is_plausible(pixels: u64, png: &[u8]) -> bool {
     pixels <= 8 * DEFLATE_RATIO * png.len() as u64
 }

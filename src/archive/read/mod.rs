@@ -70,7 +70,7 @@ pub struct PrintFile<'a> {
 }
 
 /// A copy of a model in the masks.
-#[derive(Debug, Clone, Copy, PartialEq)]
+#[derive(Debug, Clone, Copy, Default, PartialEq)]
 pub struct PrintedCopy {
     /// The model, by its index.
     pub model: usize,

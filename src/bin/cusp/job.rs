@@ -147,24 +147,29 @@ impl LoadedJob {
     /// Arranges the copies, also a single one: without a place it would stand in the middle, on no plate.
     pub fn arrange(&mut self) -> Result<(), Failure> {
         self.options.placements.clear();
-        if let [one] = &self.options.models[..]
-            && one.copies == 1
-        {
-            let places = self.job.arrange(&self.options);
-            self.options.placements = places.map_err(|error| self.failure(&error))?;
+        if self.is_alone() {
+            self.place()?;
         }
         Ok(())
     }
 
-    /// Number of plates. Copies that have no places are arranged, but for a single one, which needs no plate.
+    /// Number of plates. Arranges copies that have no places, except a single one: it needs no plate.
     pub fn plates(&mut self) -> Result<usize, Failure> {
-        let is_alone = matches!(&self.options.models[..], [one] if one.copies == 1);
-        if self.options.placements.is_empty() && !is_alone {
-            let places = self.job.arrange(&self.options);
-            self.options.placements = places.map_err(|error| self.failure(&error))?;
+        if self.options.placements.is_empty() && !self.is_alone() {
+            self.place()?;
         }
         let plates = self.options.placements.iter().map(|place| place.plate + 1);
         Ok(plates.max().unwrap_or(1))
+    }
+
+    fn is_alone(&self) -> bool {
+        matches!(&self.options.models[..], [one] if one.copies == 1)
+    }
+
+    fn place(&mut self) -> Result<(), Failure> {
+        let places = self.job.arrange(&self.options);
+        self.options.placements = places.map_err(|error| self.failure(&error))?;
+        Ok(())
     }
 
     /// Plans all plates.

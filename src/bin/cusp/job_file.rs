@@ -145,11 +145,11 @@ impl JobFile {
 
     /// Reads all models, whose paths are relative to this folder.
     pub fn read_models(&self, folder: Option<&Path>) -> Result<LoadedModels, Failure> {
-        let within = |path: &Path| folder.map_or_else(|| path.to_owned(), |it| it.join(path));
         let mut read = LoadedModels::default();
         for model in &self.models {
-            let path = within(&model.file);
-            let weights = model.weights.as_deref().map(within);
+            let path = within(folder, &model.file);
+            let weights = model.weights.as_deref();
+            let weights = weights.map(|path| within(folder, path));
             let reading = Reading {
                 weights: weights.as_deref().map(WeightsFile::read).transpose()?,
                 options: model.reading(),
@@ -160,6 +160,11 @@ impl JobFile {
         }
         Ok(read)
     }
+}
+
+/// A path of a job file, which is relative to the folder of the file.
+pub fn within(folder: Option<&Path>, path: &Path) -> PathBuf {
+    folder.map_or_else(|| path.to_owned(), |folder| folder.join(path))
 }
 
 /// The models of a job file.

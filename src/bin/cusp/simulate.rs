@@ -12,7 +12,7 @@ use cusp_slicer::simulation::{
 };
 
 use crate::failure::{Failure, in_file};
-use crate::job_file::JobFile;
+use crate::job_file::{JobFile, within};
 use crate::progress::Bar;
 use crate::terminal::{print, print_json};
 use crate::values::{length, rotation};
@@ -70,20 +70,20 @@ impl Originals {
         };
         let folder = simulating.models[0].parent();
         for model in &file.models {
-            let path = folder.map_or_else(|| model.file.clone(), |it| it.join(&model.file));
-            originals.add(path, &model.reading())?;
+            originals.add(within(folder, &model.file), &model.reading())?;
         }
+        let shared = Pose {
+            rotation: file.options.rotation,
+            height_mm: file.options.height_mm,
+            unit: file.options.unit,
+        };
         let on_plate = file.placements.iter();
         let on_plate = on_plate.filter(|it| it.plate + 1 == simulating.job_plate as usize);
         let copies = on_plate.map(|place| {
             let own = file.models.get(place.model);
             PrintedCopy {
                 model: place.model,
-                pose: Pose {
-                    rotation: own.and_then(|it| it.rotation).or(file.options.rotation),
-                    height_mm: own.and_then(|it| it.height_mm).or(file.options.height_mm),
-                    unit: file.options.unit,
-                },
+                pose: own.map_or(shared, |own| own.own().pose_over(shared)),
                 turn_deg: place.turn_deg,
                 middle_mm: [place.x_mm, place.y_mm],
             }

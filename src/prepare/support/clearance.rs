@@ -323,7 +323,7 @@ impl Clearance {
     }
 }
 
-/// Returns true if a way rises by at least as much as it runs, but for rounding.
+/// Returns true if a way rises by at least as much as it runs, except for rounding.
 pub(super) fn is_steep(from: DVec3, to: DVec3) -> bool {
     let (x, y, z) = (from.x - to.x, from.y - to.y, from.z - to.z);
     z > 0.0 && x * x + y * y <= z * z * 1.0001

@@ -25,10 +25,12 @@ export async function encodeGroups(groups: LayerGroups, helpers: number, help: H
   for (let group = 0, runs = groups.next_runs(); runs !== undefined; group++, runs = groups.next_runs()) {
     if (awaited.size < STOCK * helpers && groups.left() > 0) {
       awaited.set(group, runs);
-      void help(format, canvas, runs).then((bytes) => {
-        if (bytes === null || !awaited.delete(group)) return;
-        encoded[group] = bytes;
-      });
+      void help(format, canvas, runs).then(
+        (bytes) => {
+          if (bytes !== null && awaited.delete(group)) encoded[group] = bytes;
+        },
+        () => undefined,
+      );
     } else {
       encoded[group] = encode_group(format, canvas, runs);
     }
