@@ -102,5 +102,7 @@ fn main() {
         sections::trials(),
     ];
     let trials = suites.into_iter().flatten().collect();
-    libtest_mimic::run(&Arguments::from_args(), trials).exit();
+    let conclusion = libtest_mimic::run(&Arguments::from_args(), trials);
+    gpu::close();
+    conclusion.exit();
 }

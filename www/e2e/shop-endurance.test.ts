@@ -34,8 +34,6 @@ const KILLS: readonly [Kill, ...Kill[]] = [
   { what: "cusp", signal: "SIGKILL" },
   { what: "cusp", signal: "SIGTERM" },
   { what: "shop", signal: "SIGTERM" },
-  { what: "cusp", signal: "SIGKILL" },
-  { what: "cusp", signal: "SIGTERM" },
   { what: "shop", signal: "SIGKILL" },
 ];
 

@@ -114,7 +114,7 @@ describe("distances of the stair steps", () => {
     ["a ball", ball(5, 24), UPRIGHT],
     ["a cone that lies", cone(6, 9, 48), turned(UPRIGHT, "x", 77)],
     ["a ball through a box", together(ball(4, 32), box([-5, -2, -1], [5, 2, 2])), turned(UPRIGHT, "y", 20)],
-    ["a ball of many facets", ball(5, 96), turned(UPRIGHT, "y", 31)],
+    ["a ball of many facets", ball(5, 64), turned(UPRIGHT, "y", 31)],
   ])("of %s are those to the nearest of all facets", (_, positions, rotation) => {
     const of = solid(positions, rotation);
     const steps = measure(of, layers(9, 0.37));
