@@ -92,14 +92,15 @@ fn succeeds(command: &mut Command) -> Result<Output, Failed> {
 }
 
 fn main() {
+    // The longest tests first: at the end they would run alone.
     let suites = [
-        filament::trials(),
-        gpu::trials(),
-        models::trials(),
-        openings::trials(),
-        print_files::trials(),
         printability::trials(),
         sections::trials(),
+        print_files::trials(),
+        filament::trials(),
+        models::trials(),
+        openings::trials(),
+        gpu::trials(),
     ];
     let trials = suites.into_iter().flatten().collect();
     let conclusion = libtest_mimic::run(&Arguments::from_args(), trials);
