@@ -20,6 +20,18 @@ pub enum FilamentSlicer {
     Orca,
 }
 
+/// The rule by which a slicer limits layers, as parts of the nozzle's width.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct LayerRule {
+    /// Least thickness, whatever the nozzle.
+    pub least_mm: f64,
+    /// Least thickness in hundredths of the width; 0 if only `least_mm` counts.
+    pub least_percent: f64,
+    /// Greatest thickness in hundredths of the width.
+    pub most_percent: f64,
+}
+
 /// The layers that a slicer prints through a nozzle.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct NozzleLayers {
@@ -62,20 +74,31 @@ impl FilamentSlicer {
         self == Self::Prusa
     }
 
-    /// The layers that the slicer prints through a nozzle of this width: what it has by default, or, for `OrcaSlicer` and Bambu
-    /// Studio, what their printers' own profiles have. All are whole hundredths of a millimetre.
-    ///
-    /// Bambu's nozzles of 0.2, 0.4, 0.6 and 0.8 mm print 0.2 to 0.7 times their width; `PrusaSlicer` prints from 0.07 mm to 0.75
-    /// times the width. A first layer of half the width is what most profiles have.
+    /// The limits of layers: what the slicer has by default, or, for `OrcaSlicer` and Bambu Studio, what their printers' own profiles
+    /// have. Bambu's nozzles of 0.2, 0.4, 0.6 and 0.8 mm print 0.2 to 0.7 times their width; `PrusaSlicer` prints from 0.07 mm to
+    /// 0.75 times the width.
+    pub fn rule(self) -> LayerRule {
+        let [least_mm, least_percent, most_percent] = match self {
+            Self::Prusa => [0.07, 0.0, 75.0],
+            Self::Orca => [0.0, 20.0, 70.0],
+        };
+        LayerRule {
+            least_mm,
+            least_percent,
+            most_percent,
+        }
+    }
+
+    /// The layers that the slicer prints through a nozzle of this width. All are whole hundredths of a millimetre. A first layer of
+    /// half the width is what most profiles have.
     pub fn layers(self, nozzle_mm: f64) -> NozzleLayers {
         // Of a millimetre. Products such as 0.4 · 75 are not whole.
         const ROUNDING: f64 = 1e-6;
         let up = |hundredths: f64| (hundredths - ROUNDING).ceil() / 100.0;
         let down = |hundredths: f64| (hundredths + ROUNDING).floor() / 100.0;
-        let [least_mm, most_mm] = match self {
-            Self::Prusa => [0.07, down(nozzle_mm * 75.0)],
-            Self::Orca => [up(nozzle_mm * 20.0), down(nozzle_mm * 70.0)],
-        };
+        let rule = self.rule();
+        let least_mm = up(nozzle_mm * rule.least_percent).max(rule.least_mm);
+        let most_mm = down(nozzle_mm * rule.most_percent);
         NozzleLayers {
             least_mm,
             most_mm,

@@ -4,6 +4,7 @@ mod calibration;
 mod compare;
 mod convert;
 mod error;
+mod facts;
 #[cfg(not(target_arch = "wasm32"))]
 mod front;
 mod jobs;
@@ -25,6 +26,7 @@ mod verify;
 pub use calibration::{Calibration, Section};
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
+pub use facts::{Facts, FormatFacts};
 pub use jobs::Job;
 pub use loaded::LoadedModel;
 pub use options::*;

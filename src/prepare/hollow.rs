@@ -86,7 +86,7 @@ impl Default for Infill {
 }
 
 /// The least walls. Thinner ones are below what resin holds, and what hollowing resolves.
-const LEAST_WALL_MM: f64 = 0.4;
+pub(crate) const LEAST_WALL_MM: f64 = 0.4;
 
 /// The thinnest struts.
 const LEAST_STRUT_MM: f64 = 0.4;

@@ -19,6 +19,7 @@ mod support;
 mod surface;
 
 pub use drain::{AutoDrain, Drain};
+pub(crate) use hollow::LEAST_WALL_MM;
 pub use hollow::{Hollowing, Infill, Void, hollow};
 pub use joined::Closed;
 pub(crate) use lengths::BadLength;

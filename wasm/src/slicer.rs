@@ -4,11 +4,10 @@ use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::{self, ArchiveError, Canvas};
-use cusp_slicer::arrange::Arranging;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
-    self, Calibration, Error, JobOptions, LoadedModel, Options, OptionsError, Stage,
+    self, Calibration, Error, Facts, JobOptions, LoadedModel, Options, OptionsError, Stage,
 };
 use cusp_slicer::mask::LayerRuns;
 use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
@@ -96,22 +95,10 @@ pub fn printers() -> JsValue {
     to_js(&*PRINTERS)
 }
 
-/// The default options, with the limits of layers that apply if none are given.
-#[wasm_bindgen(unchecked_return_type = "Required<Options>")]
-pub fn defaults() -> JsValue {
-    to_js(&Options::default().settled())
-}
-
-/// Default rules by which copies are arranged.
-#[wasm_bindgen(unchecked_return_type = "Required<Arranging>")]
-pub fn default_arranging() -> JsValue {
-    to_js(&Arranging::default())
-}
-
-/// Thresholds of a check by default.
-#[wasm_bindgen(unchecked_return_type = "Required<Limits>")]
-pub fn default_limits() -> JsValue {
-    to_js(&Limits::default())
+/// Defaults, bounds and formats. The build writes them to `facts.json`.
+#[wasm_bindgen(unchecked_return_type = "Facts")]
+pub fn facts() -> JsValue {
+    to_js(&Facts::new())
 }
 
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several jobs with

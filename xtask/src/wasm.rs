@@ -109,7 +109,10 @@ pub fn build(project: &Project) -> Result<()> {
     let _guard = ONE_AT_A_TIME.lock();
     node::ensure_packages(project)?;
     ensure_tools(project)?;
-    MODULES.iter().try_for_each(|module| module.build(project))
+    MODULES
+        .iter()
+        .try_for_each(|module| module.build(project))?;
+    process::run(command("node").current_dir(&project.www).arg("facts.mjs"))
 }
 
 /// Finds wasm-pack, wasm-bindgen and the target, or installs them where cargo and rustup install for everyone.

@@ -1,5 +1,5 @@
 /**
- * The types that cross between a page and the worker, and the defaults that both sides assume.
+ * The types that cross between a page and the worker.
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
@@ -189,71 +189,3 @@ export type Remote = {
     ...given: Parameters<SlicerWorker[Name]>
   ) => ReturnType<SlicerWorker[Name]> | Promise<Awaited<ReturnType<SlicerWorker[Name]>>>;
 };
-
-/** The core's own defaults, which a form shows before the worker has started. A test compares them with the core. */
-export const DEFAULTS = {
-  rays: 2048,
-  layer_min_mm: 0.05,
-  layer_max_mm: 0.15,
-  /** In the metric's unit: mm, mm, a fraction, mm³. For volume, the core allows more if the model needs it. */
-  tolerance: { cusp: 0.065, deviation: 0.0325, thread: 0.065, roughness: 0.1, area: 0.1, volume: 1 } satisfies Record<Metric, number>,
-  /** Width of the nozzle of filament printers. */
-  nozzle_mm: 0.4,
-  metric: "cusp",
-  minimize: "layers",
-  snap: "auto",
-  saliency: false,
-  weight_min: 0.25,
-  resin: { layer_mm: 0.05, exposure_s: 3, bottom_layers: 4, bottom_exposure_s: 30 },
-  arranging: { spacing_mm: 2, turn_deg: 45 },
-} as const;
-
-/** What slicers of filament printers print: at least and at most so many hundredths of the nozzle's width, or of a millimetre. */
-const FILAMENT = {
-  "prusa-3mf": { least: () => 0.07, most: 75 },
-  "orca-3mf": { least: (nozzle_mm: number) => Math.ceil(nozzle_mm * 20 - ROUNDING) / 100, most: 70 },
-} as const satisfies Partial<Record<Format, unknown>>;
-
-/** Products such as 0.4 · 75 are not whole. */
-const ROUNDING = 1e-6;
-
-/** A format for slicers of filament printers. */
-export type FilamentFormat = keyof typeof FILAMENT;
-
-/** Returns true if a format is for slicers of filament printers. */
-export const isFilament = (format: Format | ""): format is FilamentFormat => Object.hasOwn(FILAMENT, format);
-
-/** The limits of layers and the first layer that apply for a slicer of filament printers and a nozzle if none are given. */
-export function nozzleLayers(format: FilamentFormat, nozzle_mm: number): { layer_min_mm: number; layer_max_mm: number; first_layer_mm: number } {
-  const { least, most } = FILAMENT[format];
-  const down = (hundredths: number): number => Math.floor(nozzle_mm * hundredths + ROUNDING) / 100;
-  const [layer_min_mm, layer_max_mm] = [least(nozzle_mm), down(most)];
-  return { layer_min_mm, layer_max_mm, first_layer_mm: Math.min(Math.max(down(50), layer_min_mm), layer_max_mm) };
-}
-
-/** The tolerance that applies if none is given; for volume, the core allows more if the model needs it. */
-export function usualOf(metric: Metric, format: Format | "", nozzle_mm: number = DEFAULTS.nozzle_mm): number {
-  const usual = DEFAULTS.tolerance[metric];
-  if (!isFilament(format)) return usual;
-  return Number(((usual * nozzleLayers(format, nozzle_mm).layer_min_mm) / DEFAULTS.layer_min_mm).toFixed(6));
-}
-
-/**
- * Whether two sets of options cast the same rays. If so, planning for one after the other takes milliseconds and is not worth
- * interrupting.
- */
-export function sameRays(a: Options, b: Options): boolean {
-  return (
-    a.height_mm === b.height_mm &&
-    a.unit === b.unit &&
-    a.rays === b.rays &&
-    a.antialias === b.antialias &&
-    JSON.stringify(a.printer) === JSON.stringify(b.printer) &&
-    a.pitch_mm === b.pitch_mm &&
-    a.pitch_y_mm === b.pitch_y_mm &&
-    a.backend === b.backend &&
-    a.gpu_method === b.gpu_method &&
-    String(a.pixels) === String(b.pixels) &&
-    String(a.rotation) === String(b.rotation)
-  );
-}

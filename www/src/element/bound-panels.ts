@@ -1,6 +1,7 @@
 /** The panels, bound to a session: what each shows of it, and what it changes there. Layouts put them in their places. */
 import { html, nothing, type TemplateResult } from "lit";
-import { isFilament, type Candidate, type Finding } from "../api/wire.js";
+import { isFilament } from "../api/facts.js";
+import type { Candidate, Finding } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
 import type { MoveDetail } from "../view/scene/moving.js";
 import type { PaletteName } from "../view/legend/palette.js";

@@ -2,11 +2,11 @@
 import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { expect, test } from "vitest";
+import { FORMATS } from "../api/facts.js";
 import { LANGUAGES } from "../texts/index.js";
 import { PROPERTIES, READ_ONLY, SETTING_NAMES } from "./properties.js";
 import { METRIC_NAMES } from "./state/metric.js";
 import { PANELS } from "./state/panel-names.js";
-import { FORMATS } from "./state/printer.js";
 
 const textOf = (path: string): Promise<string> => readFile(fileURLToPath(new URL(path, import.meta.url)), "utf8");
 

@@ -7,7 +7,7 @@ import type { Backend, GpuMethod } from "../api/wire.js";
 import { METRIC_NAMES } from "./state/metric.js";
 import { PANELS } from "./state/panel-names.js";
 import { fraction, languageTag, number, oneOf, printer, someOf, text, type Reader } from "./state/readers.js";
-import { FORMATS } from "./state/printer.js";
+import { FORMATS } from "../api/facts.js";
 import type { Settings } from "./state/settings.js";
 
 /** A property that is also an attribute. */

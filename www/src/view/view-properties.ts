@@ -12,7 +12,6 @@ import type { BuildVolume } from "./scene/plate.js";
 import { UPRIGHT, type Rotation } from "./scene/pose.js";
 import { ENGLISH } from "./texts.js";
 import { given, own } from "./properties.js";
-import { WALL_MM } from "./walls/scale.js";
 import type { Walls } from "./walls/thickness.js";
 
 export const PROPERTIES = {
@@ -73,7 +72,7 @@ export const PROPERTIES = {
   /** Least value of the product of weight and saliency, when that is shown. */
   least: given(0),
   /** What is thinner than this is marked in the look `walls`, mm. */
-  wall_mm: given(WALL_MM),
+  wall_mm: given(0),
   brush: given(BRUSH),
   showsLegend: given(true),
   texts: given(ENGLISH),

@@ -1,6 +1,6 @@
 /** The path from a model to its print file: a row of steps, and the panel of each. */
 import { html, nothing, type TemplateResult } from "lit";
-import { isFilament } from "../api/wire.js";
+import { isFilament } from "../api/facts.js";
 import { orientationPanel, settingsPanel, takeUp } from "../element/bound-panels.js";
 import { findingsPanel } from "../element/bound-findings.js";
 import type { Facts } from "../element/facts.js";

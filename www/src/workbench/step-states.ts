@@ -1,5 +1,6 @@
 /** How far each step is: a few words, and a mark. */
-import { isFilament, type Verdict, type Warning } from "../api/wire.js";
+import { isFilament } from "../api/facts.js";
+import type { Verdict, Warning } from "../api/wire.js";
 import type { Checks } from "../element/state/checks.js";
 import type { Session } from "../element/state/session.js";
 import { parse } from "../element/state/settings.js";

@@ -13,7 +13,7 @@ import {
   qualityPanel,
   undoButtons,
 } from "../element/bound-panels.js";
-import { isFilament } from "../api/wire.js";
+import { isFilament } from "../api/facts.js";
 import { platePanel } from "../element/bound-plate.js";
 import type { Facts } from "../element/facts.js";
 import { modelCard, uniformOffer, warnings } from "../element/panels/model-card.js";

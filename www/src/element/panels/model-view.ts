@@ -2,7 +2,8 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model } from "../../api/index.js";
 import type { ModelCalls } from "../state/selected.js";
-import { isFilament, type Printer } from "../../api/wire.js";
+import { FACTS, isFilament } from "../../api/facts.js";
+import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import type { Mark } from "../../view/scene/marker.js";
 import type { Look } from "../../view/scene/model.js";
@@ -34,7 +35,6 @@ import { DEFAULT_SETTINGS } from "../state/settings.js";
 import { modelViewStyles } from "../styles/model-view-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
-import { WALL_MM } from "../../view/walls/scale.js";
 
 /** Few people paint, or place points. */
 const paintCode = new FetchedPanel("paint", () => import("./paint-tools.js"));
@@ -228,7 +228,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .marks=${this.marks}
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
-              .wall_mm=${walls_mm ?? WALL_MM}
+              .wall_mm=${walls_mm ?? FACTS.limits.wall_mm}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
               .heat=${heat}

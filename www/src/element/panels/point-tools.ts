@@ -1,6 +1,7 @@
 /** The tools for placing support points and drain holes by hand: how many there are, the selected one, and all of them. */
 import { css, html, nothing, svg, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
+import { FACTS } from "../../api/facts.js";
 import type { Slicer } from "../../api/index.js";
 import { stemOf } from "../../api/source.js";
 import type { Language } from "../../texts/index.js";
@@ -14,8 +15,6 @@ import {
   added,
   automatic,
   cleared,
-  CONTACT_MM,
-  DRAIN_MM,
   keyOf,
   locked,
   moved,
@@ -54,7 +53,7 @@ export class PointEditor {
   readonly #update: () => void;
   /** The selected point: it keeps its place on the model, but not in the list. */
   #selected: string | null = null;
-  #drain_mm = DRAIN_MM;
+  #drain_mm = FACTS.drain_mm;
   #edits = 0;
   /** The last answer: another list would count as a change. */
   #known: { readonly of: readonly unknown[]; readonly points: HandPoints } | null = null;
@@ -133,7 +132,7 @@ export class PointEditor {
     const { format } = language;
     const { settings } = this.#session;
     const point = place === null ? undefined : list[place];
-    const usual_mm = settings.supports === "none" ? CONTACT_MM.medium : CONTACT_MM[settings.supports];
+    const usual_mm = FACTS.contacts_mm[settings.supports === "none" ? "medium" : settings.supports];
     const isNone = place === null || point === undefined;
     const said = isNone ? words[kind].none : words[kind].selected(format.count(place + 1), format.count(list.length), format.height(point.at_mm[2]));
     return html`<fieldset class="selected" ?disabled=${isNone}>

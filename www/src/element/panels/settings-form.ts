@@ -4,13 +4,14 @@
  */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
-import { DEFAULTS, isFilament, usualOf, type Format, type MeshInfo, type ModelUnit, type Printer } from "../../api/wire.js";
+import { FACTS, FORMATS, isFilament, usualOf } from "../../api/facts.js";
+import type { Format, MeshInfo, ModelUnit, Printer, Resin } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
-import { byMaker, FORMATS, formatFor, modelOf, printerOf } from "../state/printer.js";
+import { byMaker, formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
 import { canonical, localised, read } from "../state/typed.js";
@@ -133,7 +134,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       )}
       ${this.#format()}
       ${isFilament(settings.format)
-        ? this.#field("nozzle", words.nozzle, { hint: words.nozzleHint, placeholder: String(DEFAULTS.nozzle_mm) })
+        ? this.#field("nozzle", words.nozzle, { hint: words.nozzleHint, placeholder: String(FACTS.nozzle_mm) })
         : nothing}
       ${settings.printer === ""
         ? this.#select(
@@ -210,8 +211,8 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   }
 
   /** What the resin has of its own, to be used unless another value is typed. */
-  get #cure(): Record<keyof typeof DEFAULTS.resin, number> {
-    return { ...DEFAULTS.resin, ...this.offered.resins.find(({ name }) => name === this.settings.resin) };
+  get #cure(): Required<Resin> {
+    return { ...FACTS.defaults.resin, ...this.offered.resins.find(({ name }) => name === this.settings.resin) };
   }
 
   #exposure(): TemplateResult {

@@ -1,6 +1,6 @@
 /** A result in figures: layers, print time, what that saves, and the uniform layers to compare. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import { isFilament } from "../../api/wire.js";
+import { isFilament } from "../../api/facts.js";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
 import { METRICS } from "../state/metric.js";

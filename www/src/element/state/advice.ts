@@ -2,7 +2,7 @@
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
 import type { ModelUnit, PlateChoice, UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
-import { FORMATS } from "./printer.js";
+import { FORMATS } from "../../api/facts.js";
 import type { Settings } from "./settings.js";
 
 /** A change of settings that may fix a problem, offered as a button. */

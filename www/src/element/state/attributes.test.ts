@@ -1,18 +1,18 @@
 import { beforeEach, expect, test } from "vitest";
 import type { SlicerError } from "../../api/error.js";
-import { DEFAULTS, type KnownPrinter, type Printer } from "../../api/wire.js";
+import { FACTS, FORMATS } from "../../api/facts.js";
+import type { KnownPrinter, Printer } from "../../api/wire.js";
 import { Attributes, settingsOf } from "./attributes.js";
 import type { SettingName } from "../properties.js";
 import type { PlateState } from "./plate.js";
 import { Preferences } from "./preferences.js";
-import { FORMATS } from "./printer.js";
 import { knownPrinter } from "./printer-fixture.js";
 import { DEFAULT_SETTINGS, fromAddress, toAddress } from "./settings.js";
 
 class Wishes extends Preferences {
   protected override preferred(): void {}
   protected override standing(): PlateState {
-    return { job: 0, entries: [], selected: 0, arranging: DEFAULTS.arranging, placed: [] };
+    return { job: 0, entries: [], selected: 0, arranging: FACTS.arranging, placed: [] };
   }
   protected override stand(): boolean {
     return false;

@@ -1,8 +1,8 @@
 /** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan. */
+import { FACTS } from "../../api/facts.js";
 import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
-import { WALL_MM } from "../../view/walls/scale.js";
 import { isEqual } from "./plain.js";
 import { checkedOf, onCopies, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
@@ -83,7 +83,7 @@ export class Checks {
 
   /** What counts as a thin wall, mm. */
   get wall_mm(): number {
-    return this.#limits?.wall_mm ?? WALL_MM;
+    return this.#limits?.wall_mm ?? FACTS.limits.wall_mm;
   }
 
   /** Returns true if the last check or its failure is that of the plan shown. */

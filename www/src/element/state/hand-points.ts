@@ -24,12 +24,6 @@ export interface HandPoints {
 /** The core puts a point that is given back to it within this of where it was, mm. */
 const SAME_MM = 0.05;
 
-/** The diameter of a hole where nobody has said one, as the core has it, mm. */
-export const DRAIN_MM = 3;
-
-/** Diameters of the contacts of the strengths, as the core has them, mm. */
-export const CONTACT_MM = { light: 0.3, medium: 0.4, heavy: 0.6 } as const;
-
 interface Given {
   readonly settings: Settings;
   /** What the settings give; null if one is invalid. */

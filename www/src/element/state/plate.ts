@@ -1,7 +1,7 @@
 /** The models of a session, of which one is selected, and where their copies stand. The session shows the plan of one plate. */
 import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
-import { DEFAULTS } from "../../api/wire.js";
+import { FACTS } from "../../api/facts.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
 import { placesOf } from "./crowded.js";
 import type { SlicerCalls } from "./host.js";
@@ -92,7 +92,7 @@ export class Plate {
   selected = 0;
   /** The plate shown, from 0. */
   number = 0;
-  arranging: Required<Arranging> = DEFAULTS.arranging;
+  arranging: Required<Arranging> = FACTS.arranging;
   /** Where copies stand by hand; empty: as they are arranged. */
   placed: readonly Placement[] = [];
   /** Where copies stand in the plan or by hand. */

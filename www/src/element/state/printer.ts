@@ -1,24 +1,10 @@
-/** Printers as settings have them: by name, or described; and the print formats. */
+/** Printers as settings have them: by name, or described. */
 import { said, SlicerError } from "../../api/error.js";
+import { FORMATS } from "../../api/facts.js";
 import type { Format, KnownPrinter, Printer } from "../../api/wire.js";
 
 /** The name of a known printer, the description of one's own, or empty text for none. */
 export type ChosenPrinter = string | Printer;
-
-/** The print formats, as the core lists them. */
-export const FORMATS = [
-  "png",
-  "chitubox",
-  "uvj",
-  "sl1",
-  "goo",
-  "photon-workshop",
-  "anycubic-zip",
-  "ctb",
-  "nanodlp",
-  "prusa-3mf",
-  "orca-3mf",
-] as const satisfies readonly Format[];
 
 /** The longest description that an address carries, as JSON: mail programs and servers cut or refuse very long addresses. */
 export const ADDRESS_CHARS = 1500;

@@ -4,7 +4,7 @@ import { SCHEMA, type LoadCall, type Loaded, type PrintFile } from "../../api/in
 import { model, planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer, start } from "./session-fixture.js";
 import { Session } from "./session.js";
-import { DEFAULT_SETTINGS } from "./settings.js";
+import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 const zip: PrintFile = { schema: SCHEMA, name: "a-cusp.zip", type: "application/zip", blob: new Blob(["zip"]), warnings: [] };
 const CUT = new SlicerError("stl-truncated", "", { line: 3, expected: "facet-or-endsolid" });
@@ -69,17 +69,50 @@ test("with the same rays, the newest settings wait for the running plan, and int
   expect(slicer.calls).toHaveLength(4);
 });
 
-test("other rays abort the running plan", async () => {
+/** A change of each setting of a hollow, supported model, and true if it moves rays. */
+const CHANGES: { readonly [Key in keyof Settings]: readonly [change: Settings[Key], movesRays: boolean] } = {
+  rays: ["512", true],
+  height: ["30", true],
+  unit: ["inch", true],
+  rotation: ["0,0.6,0,0.8", true],
+  printer: ["elegoo-saturn", true],
+  wall: ["3", true],
+  infill: ["lattice", true],
+  drain: ["none", true],
+  drains: ["0,0,5,0,0,-1,3,1", true],
+  supports: ["heavy", true],
+  points: ["1,1,5,,1", true],
+  spare: ["on", true],
+  // Until points are placed by hand, all are automatic.
+  fill: ["on", false],
+  layerMin: ["0.04", false],
+  layerMax: ["0.1", false],
+  uniform: ["0.08", false],
+  step: ["0.01", false],
+  nozzle: ["0.6", false],
+  planner: ["uniform", false],
+  metric: ["deviation", false],
+  minimize: ["time", false],
+  snap: ["off", false],
+  saliency: ["on", false],
+  weightMin: ["0.5", false],
+  format: ["goo", false],
+  resin: ["Grey", false],
+  exposure: ["4", false],
+  bottomExposure: ["40", false],
+  bottomLayers: ["6", false],
+  tolerances: [{ cusp: "0.05" }, false],
+};
+
+test.each(Object.entries(CHANGES))("a change of %s during a plan ends it if it moves rays, and waits for it otherwise", async (key, [change, movesRays]) => {
   await planned();
-  session.change({ rays: "4096" });
+  session.change({ wall: "2", supports: "light" });
   await settle();
-  session.change({ rays: "512" });
+  const running = slicer.last;
+  session.change({ [key]: change });
   await settle();
-  expect(slicer.last.options?.rays).toBe(512);
-  slicer.last.resolve(planOf(30));
-  await settle();
-  expect(session.result?.report.layers).toBe(30);
-  expect(session.failure).toBeNull();
+  // One that waits is planned once the running one ends.
+  expect(slicer.last !== running).toBe(movesRays);
 });
 
 test("a failed plan keeps the last good one and its masks, and reports the error", async () => {

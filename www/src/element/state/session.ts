@@ -5,7 +5,8 @@
  */
 import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import type { SlicerError } from "../../api/error.js";
-import { sameRays, type Candidate, type Options, type Price, type TradeoffPoint } from "../../api/wire.js";
+import { sameRays } from "../../api/facts.js";
+import type { Candidate, Options, Price, TradeoffPoint } from "../../api/wire.js";
 import { Beside } from "./beside.js";
 import { Checks } from "./checks.js";
 import { Curve, withPoint } from "./curve.js";

@@ -1,7 +1,7 @@
 import { expect, expectTypeOf, test } from "vitest";
-import { sameRays, type Format, type Printer } from "../../api/wire.js";
+import { FORMATS, sameRays } from "../../api/facts.js";
+import type { Format, Printer } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { FORMATS } from "./printer.js";
 import { knownPrinter } from "./printer-fixture.js";
 import {
   check,

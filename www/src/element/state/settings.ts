@@ -1,10 +1,10 @@
 /** The form's settings: what was typed or chosen, whether it is valid, and the options that it gives. */
-import { DEFAULTS, isFilament, nozzleLayers, usualOf } from "../../api/wire.js";
+import { FACTS, FORMATS, isFilament, nozzleLayers, usualOf } from "../../api/facts.js";
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap, SupportStrength } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
 import { placedFrom, placedText } from "./placed.js";
-import { ADDRESS_CHARS, FORMATS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
+import { ADDRESS_CHARS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
 import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
 
@@ -94,6 +94,8 @@ export const RAYS = [512, 1024, 2048, 4096] as const;
 /** The minimum weights that the form offers. 0 is not one: it would allow any layer on a facet. */
 export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
 
+const { defaults: DEFAULTS } = FACTS;
+
 export const DEFAULT_SETTINGS: Settings = {
   height: "",
   layerMin: String(DEFAULTS.layer_min_mm),
@@ -129,8 +131,9 @@ export const DEFAULT_SETTINGS: Settings = {
 
 /** The defaults of a format: slicers of filament printers have other limits of layers, which depend on the nozzle. */
 export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
-  if (!isFilament(format)) return { ...DEFAULT_SETTINGS, format, nozzle };
-  const { layer_min_mm, layer_max_mm, first_layer_mm } = nozzleLayers(format, nozzleOf(nozzle));
+  const layers = nozzleLayers(format, nozzleOf(nozzle));
+  if (layers === null) return { ...DEFAULT_SETTINGS, format, nozzle };
+  const { layer_min_mm, layer_max_mm, first_layer_mm } = layers;
   const limits = { layerMin: String(layer_min_mm), layerMax: String(layer_max_mm), uniform: String(first_layer_mm) };
   return { ...DEFAULT_SETTINGS, format, nozzle, ...limits };
 }
@@ -138,7 +141,7 @@ export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
 /** The width of a nozzle as typed; the usual one if that is none. */
 export function nozzleOf(nozzle: string): number {
   const typed = parse(nozzle) ?? Number.NaN;
-  return typed >= THINNEST_NOZZLE_MM && typed <= WIDEST_NOZZLE_MM ? typed : DEFAULTS.nozzle_mm;
+  return typed >= NARROWEST_NOZZLE_MM && typed <= WIDEST_NOZZLE_MM ? typed : FACTS.nozzle_mm;
 }
 
 /** The change of limits that belongs to a change of format or nozzle: those that were the defaults stay the defaults. */
@@ -284,10 +287,8 @@ export type Checked = { ok: true; options: Options } | { ok: false; faults: Faul
 const THICKEST_MM = 1;
 const THINNEST_MM = 0.001;
 const TALLEST_MM = 1000;
-const THINNEST_WALL_MM = 0.4;
 const THICKEST_WALL_MM = 50;
-const THINNEST_NOZZLE_MM = 0.15;
-const WIDEST_NOZZLE_MM = 2;
+const [NARROWEST_NOZZLE_MM, WIDEST_NOZZLE_MM] = FACTS.nozzles_mm;
 const LONGEST_S = 600;
 const MOST_BOTTOM_LAYERS = 100;
 
@@ -317,7 +318,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
   if (isFilament(settings.format) && settings.nozzle.trim() !== "") {
-    options.nozzle_mm = within("nozzle", settings.nozzle, THINNEST_NOZZLE_MM, WIDEST_NOZZLE_MM);
+    options.nozzle_mm = within("nozzle", settings.nozzle, NARROWEST_NOZZLE_MM, WIDEST_NOZZLE_MM);
   }
   if (settings.unit !== "") options.unit = settings.unit;
   const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
@@ -337,7 +338,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     if (isSparing) options.supports.spare = true;
   }
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
-    options.hollow = { wall_mm: within("wall", settings.wall, THINNEST_WALL_MM, THICKEST_WALL_MM) };
+    options.hollow = { wall_mm: within("wall", settings.wall, FACTS.wall_least_mm, THICKEST_WALL_MM) };
     if (settings.infill === "lattice") options.hollow.infill = {};
     const drains = placedFrom(settings.drains, "drains") ?? [];
     if (drains.length > 0) {

@@ -3,7 +3,7 @@ import { css, html, type TemplateResult } from "lit";
 import { HEAT_PALETTE } from "../paint/heat.js";
 import { elementWith, given } from "../properties.js";
 import { ENGLISH, type ViewTexts } from "../texts.js";
-import { WALL_MM, wallScale } from "../walls/scale.js";
+import { wallScale } from "../walls/scale.js";
 import { legendStyles, ticks } from "./legend.js";
 import { gradient } from "./palette.js";
 
@@ -59,7 +59,7 @@ export const wallLegendStyles = css`
 `;
 
 /** `<cusp-wall-legend>`: the scale outside the view, where the view has no room for it. The view's code brings it along. */
-export class CuspWallLegend extends elementWith({ wall_mm: given(WALL_MM), texts: given<Texts>(ENGLISH) }) {
+export class CuspWallLegend extends elementWith({ wall_mm: given(0), texts: given<Texts>(ENGLISH) }) {
   static override styles = [
     legendStyles,
     wallLegendStyles,

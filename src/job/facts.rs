@@ -1,0 +1,209 @@
+//! Facts that forms and documents need before anything is sliced: defaults, bounds, formats, and the options that rays depend on.
+
+use std::collections::BTreeMap;
+
+use serde::Serialize;
+
+use super::Options;
+use crate::arrange::Arranging;
+use crate::filament::{FilamentSlicer, LayerRule, NOZZLES_MM, USUAL_NOZZLE_MM};
+use crate::format::Format;
+use crate::inspect::Limits;
+use crate::prepare::{AutoDrain, LEAST_WALL_MM, SupportStrength};
+use crate::profile::Metric;
+
+/// The options that rays depend on. A change of any other repeats the plan or the print file alone.
+const RAY_OPTIONS: [&str; 13] = [
+    "rotation",
+    "height_mm",
+    "unit",
+    "hollow",
+    "supports",
+    "printer",
+    "pixels",
+    "pitch_mm",
+    "pitch_y_mm",
+    "rays",
+    "antialias",
+    "backend",
+    "gpu_method",
+];
+
+/// What the core decides and others repeat: the build writes it to `www/pkg/facts.json`. Lengths are in millimetres.
+#[derive(Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct Facts {
+    /// The default options, with the limits of layers that apply if none are given.
+    #[cfg_attr(
+        target_arch = "wasm32",
+        tsify(
+            type = "Required<Options> & { layer_min_mm: number; layer_max_mm: number; resin: Required<Resin> }"
+        )
+    )]
+    pub defaults: Options,
+    /// Default rules by which copies are arranged.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<Arranging>"))]
+    pub arranging: Arranging,
+    /// Default thresholds of a check.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<Limits>"))]
+    pub limits: Limits,
+    /// Default tolerance of each metric on resin printers, in the metric's unit. For volume, a job may need more.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Record<Metric, number>"))]
+    pub tolerances: BTreeMap<&'static str, f64>,
+    /// The print formats, in the order of lists.
+    pub formats: Vec<FormatFacts>,
+    /// Width of most nozzles of filament printers.
+    pub nozzle_mm: f64,
+    /// Minimum and maximum width of a nozzle.
+    pub nozzles_mm: [f64; 2],
+    /// Minimum thickness of the walls of a hollow model.
+    pub wall_least_mm: f64,
+    /// Diameter of contacts by the strength of supports.
+    #[cfg_attr(
+        target_arch = "wasm32",
+        tsify(type = "Record<SupportStrength, number>")
+    )]
+    pub contacts_mm: BTreeMap<&'static str, f64>,
+    /// Default diameter of drain holes.
+    pub drain_mm: f64,
+    /// The options that rays depend on.
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "(keyof Options)[]"))]
+    pub ray_options: [&'static str; RAY_OPTIONS.len()],
+}
+
+/// A print format.
+#[derive(Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct FormatFacts {
+    /// Its name, as in options.
+    pub name: Format,
+    /// Limits of layers, if it is for a slicer of filament printers.
+    pub layer_rule: Option<LayerRule>,
+}
+
+impl Facts {
+    /// The facts of this version.
+    pub fn new() -> Self {
+        let format = |name| FormatFacts {
+            name,
+            layer_rule: FilamentSlicer::of(name).map(FilamentSlicer::rule),
+        };
+        let strengths = [
+            ("light", SupportStrength::Light),
+            ("medium", SupportStrength::Medium),
+            ("heavy", SupportStrength::Heavy),
+        ];
+        Self {
+            defaults: Options::default().settled(),
+            arranging: Arranging::default(),
+            limits: Limits::default(),
+            tolerances: Metric::ALL
+                .map(|metric| (metric.name(), metric.default_tolerance()))
+                .into(),
+            formats: Format::all().map(format).collect(),
+            nozzle_mm: USUAL_NOZZLE_MM,
+            nozzles_mm: NOZZLES_MM,
+            wall_least_mm: LEAST_WALL_MM,
+            contacts_mm: strengths
+                .map(|(name, strength)| (name, strength.profile().contact_mm))
+                .into(),
+            drain_mm: AutoDrain::default().diameter_mm,
+            ray_options: RAY_OPTIONS,
+        }
+    }
+}
+
+impl Default for Facts {
+    fn default() -> Self {
+        Self::new()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use serde_json::{Map, Value, json};
+
+    use super::RAY_OPTIONS;
+    use crate::job::Options;
+
+    /// Another value of every option.
+    fn changes() -> Map<String, Value> {
+        let changes = json!({
+            "rotation": [0.0, 0.6, 0.0, 0.8],
+            "height_mm": 20.0,
+            "unit": "inch",
+            "hollow": { "wall_mm": 2.5 },
+            "supports": { "strength": "heavy" },
+            "printer": "mars-4-ultra",
+            "pixels": [1000, 900],
+            "pitch_mm": 0.07,
+            "pitch_y_mm": 0.06,
+            "mirror": true,
+            "format": "goo",
+            "rays": 512,
+            "antialias": 4,
+            "min_feature_mm": 0.3,
+            "layer_min_mm": 0.04,
+            "layer_max_mm": 0.12,
+            "first_layer_mm": 0.06,
+            "nozzle_mm": 0.6,
+            "thicknesses_mm": [0.05, 0.1],
+            "max_thicknesses": 3,
+            "max_change_mm": 0.01,
+            "tolerance": 0.05,
+            "max_layers": 300,
+            "max_time_s": 3000.0,
+            "bin_mm": 0.001,
+            "step_mm": 0.01,
+            "ranges": [{ "from_mm": 1.0, "to_mm": 2.0, "layer_min_mm": 0.05, "layer_max_mm": 0.1 }],
+            "planes_mm": [3.0],
+            "snap": "off",
+            "flat_area_mm2": 3.0,
+            "metric": "deviation",
+            "source": "sampled",
+            "saliency": true,
+            "weight_min": 0.5,
+            "planner": { "kind": "greedy" },
+            "minimize": "time",
+            "resin": { "exposure_s": 4.0 },
+            "backend": "cpu",
+            "gpu_method": "peel",
+        });
+        serde_json::from_value(changes).unwrap()
+    }
+
+    #[test]
+    fn rays_depend_on_the_options_that_are_said_and_on_no_others() {
+        // On a plate of pixels, around a model, and for a slicer of filament printers.
+        let bases = [
+            json!({}),
+            json!({ "pixels": [800, 600], "pitch_mm": 0.05 }),
+            json!({ "format": "prusa-3mf" }),
+        ];
+        for (name, value) in changes() {
+            let moves = bases.iter().any(|base| {
+                let mut options = base.clone();
+                let before: Options = serde_json::from_value(options.clone()).unwrap();
+                options[&name] = value.clone();
+                let after: Options = serde_json::from_value(options).unwrap();
+                assert_ne!(before, after, "{name}");
+                match (before.resolve(), after.resolve()) {
+                    (Ok(before), Ok(after)) => before.sampling != after.sampling,
+                    _ => false,
+                }
+            });
+            assert_eq!(moves, RAY_OPTIONS.contains(&&*name), "{name}");
+        }
+    }
+
+    #[test]
+    fn every_option_is_changed_above() {
+        let Value::Object(defaults) = json!(Options::default()) else {
+            panic!("options are an object");
+        };
+        let changes = changes();
+        for name in defaults.keys().map(String::as_str).chain(RAY_OPTIONS) {
+            assert!(changes.contains_key(name), "{name}");
+        }
+    }
+}
