@@ -37,7 +37,7 @@ pub(crate) fn bodies(vertices: usize, facets: &[[u32; 3]]) -> Vec<u32> {
 /// The number of bodies, and which facets belong to those that face the wrong way: bodies inside out that do not lie within another,
 /// and cavities of such bodies. `None` if there are none.
 ///
-/// Cost: linear in facets; with bodies inside out, for each facet the bodies beside it as well.
+/// Cost: linear in facets. With bodies inside out, each facet also meets the test points of bodies in its range of x.
 pub(super) fn misoriented(mesh: &Mesh) -> (usize, Option<Vec<bool>>) {
     let body_of = bodies(mesh.vertices.len(), &mesh.facets);
     let mut found: Vec<Body> = Vec::new();
@@ -84,7 +84,8 @@ struct Body {
     ends: [DVec3; 6],
 }
 
-/// How far from its ends towards its middle a body is looked at: what only touches another is not beyond it.
+/// Inset of a body's test points from its ends towards its middle, as a fraction: a body that merely touches another
+/// does not contain it.
 const INWARD: f64 = 1.0 / 64.0;
 
 impl Body {
@@ -118,7 +119,7 @@ impl Body {
     }
 }
 
-/// How often the other bodies wind around the points of each body.
+/// Winding numbers of the other bodies around the test points of each body.
 fn windings(mesh: &Mesh, numbers: &[u32], bodies: &[Body]) -> Vec<[i32; 6]> {
     let points: Vec<DVec3> = bodies.iter().flat_map(Body::points).collect();
     let around = windings_at(mesh, &points, |facet, point| {
@@ -158,8 +159,8 @@ pub(crate) fn windings_at(
     windings
 }
 
-/// How the winding number changes from above a facet to below it, if the facet is above the point; otherwise 0. A point above or below
-/// an edge counts for one of the facets beside it.
+/// Change of the winding number from above a facet to below it if the facet is above the point, otherwise 0. A point
+/// above or below an edge counts for one of the two facets at that edge.
 pub(crate) fn passes_above([a, b, c]: [DVec3; 3], point: DVec3) -> i32 {
     let [u, v, w] = [a, b, c].map(|corner| (corner - point).truncate());
     // Crossings of the edges with the half-line from the point along +y, each from one side in x to the other.

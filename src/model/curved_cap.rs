@@ -119,8 +119,9 @@ impl Bent {
         (point + direction * bounds[0]).as_vec3()
     }
 
-    /// Whether the fan is seen under a solid angle of more than 2π. Half the angle is the argument of a product of complex numbers, one a
-    /// facet (van Oosterom and Strackee, The solid angle of a plane triangle, 1983), so it suffices to count its half-turns.
+    /// Returns true if the fan subtends a solid angle of more than 2π. Half the angle is the argument of a product of
+    /// complex numbers, one per facet (van Oosterom and Strackee, The solid angle of a plane triangle, 1983), so it
+    /// suffices to count its half-turns.
     fn is_wide_from(&self, eye: DVec3) -> bool {
         let to_middle = self.middle - eye;
         let middle_length = to_middle.length();

@@ -3,7 +3,7 @@
 /// An edge that facets leave open, in the direction in which a cap must use it.
 pub(super) type OpenEdge = (u32, u32);
 
-/// What is across an edge of a facet.
+/// Neighbour of a facet across an edge.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Across {
     /// No other facet.
@@ -22,7 +22,7 @@ const NOTHING: u32 = u32::MAX;
 const SEVERAL: u32 = u32::MAX - 1;
 
 impl Neighbours {
-    /// What is across edge `edge` of a facet.
+    /// Returns the neighbour across edge `edge` of a facet.
     pub fn across(&self, facet: usize, edge: usize) -> Across {
         match self.0[facet][edge] {
             NOTHING => Across::Nothing,

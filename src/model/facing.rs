@@ -2,7 +2,8 @@
 //!
 //! Two facets at an edge face the same way if they use it in opposite directions. Facets that share an edge with one other, or a part of
 //! it where no vertices were placed to match (a T-junction), form patches. Within a patch the facing is carried from facet to facet; which
-//! of its two sides is the outside is decided for the patch as a whole, and by [`super::bodies`] for what lies inside other bodies.
+//! of its two sides is the outside is decided for the patch as a whole, and by [`super::bodies`] for parts inside other
+//! bodies.
 
 use glam::{DVec3, Vec3};
 use rustc_hash::FxHashMap;
@@ -14,7 +15,7 @@ use super::mesh::sixfold_volume;
 pub(super) struct Facing {
     /// True if each facet is to be turned over.
     pub turned: Vec<bool>,
-    /// Edges at which the facets beside them cannot face the same way, as on a Möbius strip.
+    /// Edges whose adjacent facets cannot face the same way, as on a Möbius strip.
     pub contradictions: usize,
 }
 
@@ -162,7 +163,7 @@ fn joints(boundary: &[BoundaryEdge], vertices: &[Vec3], rounding: f64) -> Vec<Jo
         let along = to - from;
         let length = along.length();
         let along = along / length;
-        // Where a point lies along the edge, if it lies on its line.
+        // Position of a point along the edge, if the point lies on the edge's line.
         let place = |vertex: u32| {
             let offset = at(vertex) - from;
             let place = offset.dot(along);

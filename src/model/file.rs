@@ -48,7 +48,7 @@ impl ModelFile {
     }
 }
 
-/// What is known from a model's file besides the triangles.
+/// Facts about a model's file besides its triangles.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct FileFacts {

@@ -78,7 +78,7 @@ pub struct Mesh {
     pub facets: Vec<[u32; 3]>,
     /// Number of facets of the surface, all with an area that is more than rounding.
     pub surface_facets: usize,
-    /// What the facets belong to.
+    /// Classes of the facets.
     pub classes: FacetClasses,
     /// For each facet of the surface, slivers included, the facets across its edges; caps do not count.
     pub neighbours: Arc<Neighbours>,
@@ -95,7 +95,7 @@ pub struct Mesh {
     pub turned_facets: usize,
     /// Number of bodies: facets that hang together by their corners.
     pub bodies: usize,
-    /// Edges at which the facets beside them cannot all face the same way, as on a Möbius strip, or where three meet.
+    /// Edges whose adjacent facets cannot all face the same way, as on a Möbius strip, or where three facets meet.
     pub contradictory_edges: usize,
     /// The first of the vertices that are centroids of fans, if there are any.
     centroids_from: u32,
@@ -299,7 +299,7 @@ impl Mesh {
     }
 
     /// Volume enclosed by the model in mm³, by the divergence theorem, with holes closed and without voids and supports.
-    /// Where bodies overlap, the overlap counts once per body.
+    /// Overlaps of bodies count once per body.
     pub fn volume_mm3(&self) -> f64 {
         let centre = (self.bounds().min + self.bounds().max) * 0.5;
         let sixfold: f64 = (0..self.classes.model_end() as usize)
@@ -372,7 +372,7 @@ impl Mesh {
         let placed = turned.into_iter().map(|vertex| (vertex - foot) * scale);
         let mut placed: Vec<DVec3> = placed.collect();
         self.place_centroids(&mut placed);
-        // What is subtracted may reach below the plate, where nothing is printed. Supports come later.
+        // Voids may reach below the plate, where nothing is printed. Supports are added later.
         if !self.of_class(FacetClass::Void).is_empty()
             && self.of_class(FacetClass::Support).is_empty()
         {
@@ -470,10 +470,10 @@ const NEAR_ROUNDINGS: f64 = 16.0;
 /// several degrees.
 const NEEDLE_ROUNDINGS: f64 = 64.0;
 
-/// How many times as long as high a facet is at least that counts as a needle.
+/// Least ratio of length to height at which a facet counts as a needle.
 const NEEDLE_ASPECT: f64 = 1000.0;
 
-/// How far rounding to single precision may have moved a vertex along an axis.
+/// Largest distance along an axis by which rounding to single precision may have moved a vertex.
 fn rounding(vertices: &[Vec3]) -> f64 {
     let most = vertices
         .iter()

@@ -4,7 +4,7 @@ use glam::{DMat3, DQuat, DVec3};
 
 use super::{MeshError, ModelUnit};
 
-/// How a model stands on the plate.
+/// Pose of a model on the plate.
 #[derive(Debug, Clone, Copy, PartialEq, Default)]
 pub struct Pose {
     /// A rotation from the pose in the file: a quaternion x, y, z, w of any length except 0.
@@ -24,7 +24,7 @@ impl Pose {
         }
     }
 
-    /// This pose, turned about z by so many times 15°, counter-clockwise as seen from above.
+    /// This pose, turned about z by `turns` times 15°, counter-clockwise as seen from above.
     #[must_use]
     pub fn turned(&self, turns: u32) -> Self {
         let step = (turns % TURNS) as usize;

@@ -12,7 +12,7 @@ pub enum ModelUnit {
     /// A thousandth of a millimetre.
     #[cfg_attr(feature = "cli", value(alias = "um"))]
     Micron,
-    /// What a file without a unit is taken to be in.
+    /// The unit assumed for a file without one.
     #[cfg_attr(feature = "cli", value(alias = "mm"))]
     Millimeter,
     /// 10 mm.

@@ -1,4 +1,4 @@
-//! How much each facet matters, from 0 to 1 (section 4.2): read from and written to a small file.
+//! Weights of facets, from 0 to 1 (section 4.2), read from and written to a small file.
 //!
 //! The file is bound to its mesh. It holds the eight bytes `CUSPWT01`, the number of facets and the CRC-32 of their corners
 //! as single-precision numbers (32 bits each), then one single-precision weight per facet, all little-endian. The facets are

@@ -1,7 +1,8 @@
-//! Where resin stays in a void: its basins, found from the plate upward.
+//! Basins of a void, which keep resin: found from the plate upward.
 //!
-//! A part of the void that begins by itself holds resin while it is printed, and after: the film pulls at it until it joins an older part.
-//! So each basin needs a hole at its lowest point, unless it is so small when it joins another that nobody calls it a cup.
+//! A part of the void that begins by itself holds resin during and after printing, and the film pulls at it until it
+//! joins an older part. So each basin needs a hole at its lowest point, unless it is too small to act as a cup when it
+//! joins another.
 
 use crate::disjoint::find;
 
@@ -16,7 +17,7 @@ const NONE: u32 = u32::MAX;
 struct Part {
     /// The slice in which it begins, and the node of that slice that is deepest in the void.
     lowest: (usize, usize),
-    /// How deep that is.
+    /// Depth of that node in the void.
     depth_mm: f32,
     /// Its nodes in the last whole slice that it is in.
     nodes: usize,
@@ -53,7 +54,7 @@ impl Basins {
     /// Adds the next slice: nodes are in the void where the field is positive.
     pub fn add(&mut self, field: &[f32]) {
         let slice = self.slices;
-        // What hangs together in the slice is one, whichever parts it stands on.
+        // Nodes that are connected in the slice form one part, whichever parts they stand on.
         let mut here = vec![NONE; field.len()];
         let mut stack = Vec::new();
         // Parts that are in the slice; some more than once.

@@ -1,7 +1,8 @@
 //! Cavities that a model has before it is hollowed: hollows that no way leads out of.
 //!
-//! They are known by the columns, as the solid is: gaps between the height ranges of a column hang together with those beside them, and
-//! what does not hang together with the outside is a cavity. A way that is narrower than a column may be missed.
+//! They are found in the columns: gaps between the height ranges of a column are connected to adjacent gaps, and a
+//! group of gaps that is not connected to the outside is a cavity. A passage that is narrower than a column may be
+//! missed.
 
 use glam::Vec3;
 

@@ -26,7 +26,7 @@ pub(super) struct Columns {
     ranges_mm: Vec<[f32; 2]>,
 }
 
-/// What distances are measured to.
+/// Target of distances.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum To {
     /// The solid.
@@ -116,7 +116,7 @@ impl Columns {
             heights_mm[*place as usize] = z_mm;
             *place += 1;
         }
-        // What is entered is left.
+        // Each range that is entered is also left, so heights come in pairs.
         let (ranges_mm, _) = heights_mm.as_chunks::<2>();
         Self {
             starts: starts.into_iter().map(|start| start / 2).collect(),
@@ -252,7 +252,7 @@ impl Columns {
     }
 }
 
-/// The smaller number. Unlike `f32::min` it does not care for what is no number, and so is one instruction for four of them.
+/// The smaller number. Unlike `f32::min` it does not handle NaN, and so compiles to one instruction for four numbers.
 fn least(a: f32, b: f32) -> f32 {
     if b < a { b } else { a }
 }

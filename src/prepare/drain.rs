@@ -15,7 +15,7 @@ use crate::model::Bounds;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
 pub struct Drain {
-    /// Where it enters the model, in the frame of reports: centred on x = y = 0, with the plate at z = 0.
+    /// The point where it enters the model, in the frame of reports: centred on x = y = 0, with the plate at z = 0.
     pub at_mm: [f64; 3],
     /// Which way it goes in, of any length but 0.
     pub direction: [f64; 3],
@@ -92,11 +92,11 @@ impl Bore {
         })
     }
 
-    /// How deep all of the hole is in the void of a shell; `None` if its middle never is.
+    /// Depth at which the whole width of the hole is in the void of a shell; `None` if its axis never is.
     fn depth_mm(&self, shell: &Shell) -> Option<f64> {
         let near = self.near(shell);
         let [enters, leaves] = first_mm(&near, self.at, self.along)?;
-        // Where the wall is slanted a rim enters later, or beside the void.
+        // A rim enters a slanted wall later, or misses the void.
         let rims = self.rim.iter();
         let rims = rims.filter_map(|&rim| first_mm(&near, self.at + rim, self.along));
         Some(rims.map(|rim| rim[0]).fold(enters, f64::max).min(leaves))
@@ -123,14 +123,14 @@ impl Bore {
         facets.filter(is_near).collect()
     }
 
-    /// The hole from before its place to a depth, with a lid at both ends, as far as it is within the model's box, which is above the
-    /// plate: rays are sampled there alone.
+    /// The bore between two depths with a lid at both ends, clipped to the model's box, which is above the plate: rays
+    /// are sampled only there.
     fn shell(&self, from_mm: f64, to_mm: f64, bounds: &Bounds) -> Shell {
         let sides = self.rim.len() as u32;
         let (low, high) = (bounds.min, bounds.max);
         let point = |rim: DVec3, along_mm: f64| {
             let begin = self.at + rim;
-            // Where its line is within the box, as far as that cuts it.
+            // The stretch of its line that is within the box.
             let (mut first_mm, mut last_mm) = (from_mm, to_mm);
             for axis in 0..3 {
                 let ends = [low[axis], high[axis]];
@@ -162,7 +162,8 @@ impl Bore {
     }
 }
 
-/// Where a ray from outside a closed surface first enters it and leaves it again, in millimetres from its beginning.
+/// Distances in millimetres from the start of a ray outside a closed surface to its first entry and the exit that
+/// follows.
 fn first_mm(facets: &[[DVec3; 3]], from: DVec3, along: DVec3) -> Option<[f64; 2]> {
     let crossings = facets.iter().filter_map(|corners| {
         let [a, b, c] = corners.map(|corner| corner - from);
@@ -213,10 +214,10 @@ pub(super) fn mark(drain: &Drain, points: &[Vec3], margin_mm: f64, marks: &mut [
     }
 }
 
-/// How far a bore goes on beyond what it drains, so that its end does not close it, in parts of its diameter.
+/// Distance that a bore goes beyond the void it drains, so that its end does not close it, in diameters.
 pub(super) const BEYOND: f64 = 0.25;
 
-/// How much room a hole needs outside, in diameters.
+/// Free distance that a hole needs outside, in diameters.
 const ROOM: f32 = 2.0;
 
 /// The least distance of a hole from the plate, which would close it.
@@ -273,7 +274,7 @@ pub(super) fn place(
     })
 }
 
-/// How far it is to the outside, if nothing is in the way for `room_mm` from there.
+/// Distance to the outside, if the way is free for `room_mm` from there.
 fn way_out_mm(
     model: &Columns,
     lattice: &Lattice,

@@ -28,7 +28,7 @@ use crate::model::{Bounds, Mesh};
 use crate::parallel;
 use crate::progress::{Progress, report};
 
-/// How a model is hollowed.
+/// Options of hollowing.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -183,7 +183,7 @@ const MOST_MM: f64 = 1e5;
 /// Columns from one node of the void's surface to the next.
 const STRIDE: usize = 2;
 
-/// The depth of what basins may miss, from one node of the void's surface to the next.
+/// Greatest depth of a basin that may be missed, in distances between nodes of the void's surface.
 const PIT: f32 = 2.0;
 
 /// The void in a model that stands on the plate: none if it is nowhere thick enough, or if the model has no closed cavity of its own where
@@ -215,7 +215,7 @@ pub fn hollow(
     let model = Columns::of_model(&ldi);
     drop(ldi);
     let half_mm = (hollowing.cavity_mm / 2.0) as f32;
-    // What is outside is found half a column too far away on average.
+    // The outside is found half a column too far away on average.
     let error_mm = pitch_mm as f32 / 2.0;
     let depth_mm = hollowing.wall_mm as f32 + half_mm + error_mm;
     let depth_mm = (!hollowing.drains_alone()).then_some(depth_mm);
@@ -290,9 +290,9 @@ pub fn hollow(
     };
     void.drill_all(&hollowing.drains, &bounds, progress)?;
     if let Some(hole) = hollowing.auto_drain {
-        // A hole as wide as the model leaves nothing of it.
+        // A hole as wide as the model would remove all of it.
         let is_small = hole.diameter_mm < size.min_element();
-        // What the hole cuts away, and no less than the columns resolve.
+        // The radius that the hole cuts away, or the resolution of the columns if that is larger.
         let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
         let is_spared = surface::spared_within(mesh, weights.filter(|_| hole.spare), reach_mm);
         let place = |lowest_mm| {
@@ -413,7 +413,8 @@ fn slices_at_a_time(model: &Columns) -> usize {
     }
 }
 
-/// The pitch of columns: fine beside the wall, and not so fine that there are too many points.
+/// The pitch of columns: fine compared with the wall, but coarse enough to keep the number of points within
+/// `MOST_POINTS`.
 fn pitch_mm(hollowing: &Hollowing, box_mm3: f64) -> f64 {
     let wall_mm = if hollowing.drains_alone() {
         Hollowing::default().wall_mm
@@ -456,7 +457,7 @@ fn lattice_of(model: &Columns, grid: &Grid, bottom_mm: f32) -> Lattice {
     }
 }
 
-/// What is at least so far from the outside.
+/// The points of the model that are at least this deep below its surface.
 pub(super) fn core(
     model: &Columns,
     depth_mm: f32,

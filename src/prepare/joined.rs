@@ -82,7 +82,7 @@ pub(super) fn joined(
     }
 }
 
-/// The cavities that stay closed, as far as they are worth a word.
+/// The cavities that stay closed and are large enough to report.
 pub(super) fn closed_of(
     cavities: &Cavities,
     is_closed: &[bool],

@@ -1,4 +1,4 @@
-//! What a posed model is prepared with before it is sampled: voids and supports, as bodies of their own class.
+//! Preparation of a posed model before it is sampled: voids and supports, as bodies of their own class.
 //!
 //! They are never cut from the model or joined with it: [`crate::model::Winding`] decides along each ray what is printed.
 

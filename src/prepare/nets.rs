@@ -11,7 +11,7 @@ use super::shell::Shell;
 /// No vertex.
 const NONE: u32 = u32::MAX;
 
-/// Where the nodes of a lattice are.
+/// Positions of the nodes of a lattice.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Lattice {
     /// Nodes of a row, along x.

@@ -1,4 +1,5 @@
-//! Pits: hollows of a void's floor that are too shallow to need a hole of their own, and would keep resin beside the holes there are.
+//! Pits: hollows of a void's floor that are too shallow to need a hole of their own, and would keep resin even though
+//! the void drains.
 
 use std::cmp::Reverse;
 use std::collections::BinaryHeap;
@@ -20,7 +21,7 @@ pub(super) fn fill(shell: &mut Shell, most_mm: f32, outlets: &[bool]) {
     let mut level_mm = vec![f32::INFINITY; vertices.len()];
     let mut pit = vec![NONE; vertices.len()];
     let mut depth_mm = vec![0.0f32; vertices.len()];
-    // Heights of what stands on the plate are not negative, so their bits are in order.
+    // Heights above the plate are not negative, so their bits sort like the numbers.
     let place = |z_mm: f32, vertex: u32| Reverse((z_mm.max(0.0).to_bits(), vertex));
     let mut next = BinaryHeap::new();
     for (vertex, at) in vertices.iter().enumerate() {
@@ -49,7 +50,7 @@ pub(super) fn fill(shell: &mut Shell, most_mm: f32, outlets: &[bool]) {
     }
     for (vertex, at) in vertices.iter_mut().enumerate() {
         let is_shallow = pit[vertex] != NONE && depth_mm[pit[vertex] as usize] <= most_mm;
-        // What hangs from a ceiling keeps nothing.
+        // Surfaces that hang from a ceiling keep no resin.
         if is_shallow && floors[vertex] {
             at.z = level_mm[vertex];
         }
@@ -69,7 +70,7 @@ fn faces_down(shell: &Shell) -> Vec<bool> {
     rises.into_iter().map(|rise| rise < 0.0).collect()
 }
 
-/// The vertices beside each vertex.
+/// Adjacency of vertices.
 struct Beside {
     /// Those of vertex i are from `starts[i]` to `starts[i + 1]`.
     starts: Vec<u32>,

@@ -6,7 +6,7 @@ use super::drain::{BEYOND, DOUBLINGS, Drain};
 use super::round::circle;
 use super::shell::Shell;
 
-/// How much narrower than its hole a plug is at the end that goes in; at the other it fills the hole.
+/// Play in diameter between a plug's inner end and its hole; the other end fills the hole.
 const PLAY_MM: f64 = 0.2;
 
 /// The shortest plug that can be held, in diameters of its hole.

@@ -1,4 +1,4 @@
-//! The surface of a model, for whoever asks what is near a point of it.
+//! Spatial index over the facets of a model's surface.
 
 use glam::{DVec2, DVec3, Vec3};
 

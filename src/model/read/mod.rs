@@ -23,7 +23,7 @@ pub const HEAD_BYTES: usize = 1 << 16;
 /// The corners of triangles, in file order.
 pub type Triangles = Vec<[Vec3; 3]>;
 
-/// What a file holds of a model.
+/// Contents of a model file.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contents {
     /// Its triangles, in millimetres if the file has a unit.

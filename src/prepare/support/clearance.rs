@@ -1,4 +1,5 @@
-//! How far points are from the model, and by which ways a support reaches the plate, or else the model, without coming near it.
+//! Distances of points from the model, and routes by which a support reaches the plate, or else the model, without
+//! coming near it.
 //!
 //! Distances are known on a lattice of nodes, and between nodes by interpolation. Ways go from node to node, straight down or down at 45° along
 //! an axis; sweeping the lattice once from the plate up finds the shortest one from every node.
@@ -23,10 +24,12 @@ const SLANTED: u16 = 14;
 /// No way.
 const NONE: u16 = u16::MAX;
 
-/// What standing on the model counts as, since it leaves a mark: so much pillar. A branch to another pillar that is shorter is preferred.
+/// Cost of a pillar that stands on the model, where it leaves a mark, as a length of pillar. A branch to another pillar
+/// is preferred if it is shorter.
 const ON_MODEL_MM: f32 = 30.0;
 
-/// The least part of a pillar's height above a floor that it must be away from it. Steeper floors have none of it.
+/// Least clearance of a point above a floor, as a fraction of its height, for a pillar to stand on that floor. Steep
+/// floors fail this.
 const FLAT: f32 = 0.7;
 
 /// Steps from a node: its neighbours in the slice below.
@@ -51,7 +54,7 @@ pub(super) struct Clearance {
     need_mm: f32,
 }
 
-/// Where a way ends.
+/// End of a route.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(super) enum End {
     Plate,
@@ -303,7 +306,7 @@ impl Clearance {
                 let to = points[next];
                 is_steep(from, to) && self.is_clear(from, to, self.need_mm)
             };
-            // What is reached is nearly always all up to some point.
+            // If a point is reachable, nearly always all points before it are too.
             let mut next = here + 1;
             let mut step = 1;
             while step > 0 {

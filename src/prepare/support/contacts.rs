@@ -1,4 +1,4 @@
-//! Where a model needs supports: at its lowest points, and on surfaces that are too flat to support themselves.
+//! Contacts: a model needs supports at its lowest points, and on surfaces that are too flat to support themselves.
 
 use glam::DVec3;
 
@@ -21,7 +21,7 @@ pub(super) struct Contact {
     pub facet: u32,
 }
 
-/// What decides where contacts go, besides the model.
+/// Inputs that decide where contacts go, besides the model.
 pub(super) struct Wishes<'a> {
     pub profile: &'a SupportProfile,
     /// Contacts that are there already.
@@ -30,17 +30,17 @@ pub(super) struct Wishes<'a> {
     pub weights: Option<&'a [f32]>,
 }
 
-/// How near the plate a surface stands on it.
+/// Greatest height above the plate at which a surface stands on it.
 const ON_PLATE_MM: f64 = 0.02;
 
-/// Lowest points so near to each other that one tip holds both, in contact diameters.
+/// Distance at which one tip holds two lowest points, in contact diameters.
 const SAME: f64 = 0.5;
 
-/// How far a contact holds what only something thinner than a ray's distance joins with the rest, in spacings: half of a level surface.
+/// Radius that a contact holds around a lone entry (see `lone_entries`), in spacings: half of that on a level surface.
 const LONE: f64 = 0.5;
 
-/// The contacts that hold a model beside those that it has, and those that it would need on facets that are spared: ascending, and so in
-/// the order in which they are printed.
+/// Places new contacts: those that hold the model together with the given ones, and those that it would need on spared
+/// facets. Both ascend, which is the order in which they are printed.
 pub(super) fn place(
     model: &Surface<'_>,
     ldi: &Ldi,
@@ -66,7 +66,7 @@ pub(super) fn place(
             continue;
         }
         match contact(at) {
-            // What is near may still get contacts.
+            // Facets nearby may still get contacts.
             Some(it) if is_spared(it.facet) => missed.push(it),
             found => {
                 held.insert(at);
@@ -76,7 +76,7 @@ pub(super) fn place(
     }
     let mut places = overhangs(mesh, &rays, profile);
     sort_by_number(&mut places, |place| micrometres(place.at.z));
-    // What is at an edge waits until all else is held, and what is spared shows then what is not.
+    // Edges come after the rest. Spared facets come last, and so show what stays without support.
     for (spared, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
         let these = |place: &&Place| place.is_edge == is_edge && is_spared(place.facet) == spared;
         for place in places.iter().filter(these) {
@@ -197,7 +197,7 @@ const NO_CORNER: usize = usize::MAX;
 fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..3 * facets.len() as u32).collect();
     let mut unite = |a: usize, b: usize| disjoint::unite(&mut parent, a as u32, b as u32);
-    // A corner of each vertex whose edges do not tell what is beside it.
+    // A corner of each vertex whose edges do not identify the adjacent facet.
     let mut whole = vec![NO_CORNER; mesh.vertices.len()];
     for (facet, corners) in facets.iter().enumerate() {
         for edge in 0..3 {
@@ -270,7 +270,7 @@ struct Stretch {
     facet: u32,
 }
 
-/// Where rays are in the model.
+/// Stretches of the rays in the model.
 struct Rays<'a> {
     ldi: &'a Ldi,
     /// The stretches of ray i are those from `starts[i]` to `starts[i + 1]`.
@@ -317,7 +317,7 @@ impl<'a> Rays<'a> {
         &self.stretches[self.starts[ray]..self.starts[ray + 1]]
     }
 
-    /// The stretches of the ray so many columns and rows away; none beyond the grid.
+    /// The stretches of the ray at an offset in columns and rows; none beyond the grid.
     fn beside(&self, [column, row]: [usize; 2], [dx, dy]: [isize; 2]) -> &[Stretch] {
         let (width, height) = (self.ldi.grid.width as usize, self.ldi.grid.height as usize);
         match (column.checked_add_signed(dx), row.checked_add_signed(dy)) {
@@ -337,7 +337,8 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// Where a ray enters the model with nothing beside it: what only facets thinner than a ray's distance join with the rest.
+/// Points where a ray enters the model while no adjacent ray is inside it: only facets closer together than rays
+/// connect such a feature to the rest.
 fn lone_entries(rays: &Rays<'_>) -> Vec<DVec3> {
     let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
     let around: Vec<[isize; 2]> = around.filter(|&it| it != [0, 0]).collect();
@@ -388,7 +389,8 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
 }
 
 impl Surface<'_> {
-    /// The contact at a point, if the surface is so near: at the nearest point of it, with the mean normal of what the tip touches.
+    /// The contact at a point, or at the nearest point of the surface within reach, with the mean normal of the facets
+    /// that the tip touches.
     ///
     /// Coordinates are whole micrometres, as in reports, so that a report's points give the same contacts.
     pub(super) fn contact(&self, point: DVec3, diameter_mm: f64, reach_mm: f64) -> Option<Contact> {

@@ -23,13 +23,13 @@ use clearance::Clearance;
 use contacts::{Contact, Wishes};
 use trees::Trees;
 
-/// How a model is supported.
+/// Options of supports.
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct Supporting {
-    /// How strong supports are, and how dense.
+    /// Strength and density of supports.
     pub strength: SupportStrength,
     /// All sizes, in place of those of a strength.
     #[serde(skip_serializing_if = "Option::is_none")]
@@ -43,7 +43,7 @@ pub struct Supporting {
     pub spare: bool,
 }
 
-/// How strong supports are, and how dense.
+/// Strength and density of supports.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema, clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -64,7 +64,7 @@ pub enum SupportStrength {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
 pub struct SupportPoint {
-    /// Where it is on the surface: x and y from the model's middle, z from its lowest point.
+    /// Its place on the surface: x and y from the model's middle, z from its lowest point.
     pub at_mm: [f64; 3],
     /// Diameter of its tip; the profile's if absent.
     #[serde(default, skip_serializing_if = "Option::is_none")]
@@ -77,25 +77,26 @@ pub struct SupportPoint {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct SupportProfile {
-    /// How far the model is lifted above the plate.
+    /// Distance by which the model is lifted above the plate.
     pub lift_mm: f64,
     /// The flattest surface that supports itself, as its rise over its run.
     pub self_supporting_slope: f64,
-    /// How far from a contact a level surface is held. One that just does not support itself is held half as far again.
+    /// Radius that a contact holds on a level surface. It is half as large again on one that just does not support
+    /// itself.
     pub spacing_mm: f64,
     /// Diameter of a tip where it touches the model.
     pub contact_mm: f64,
-    /// How deep a tip is in the model.
+    /// Depth of a tip in the model.
     pub penetration_mm: f64,
     /// Length of a tip.
     pub tip_mm: f64,
     /// Diameter of a pillar below one tip. Its area grows by a sixth for each tip more.
     pub pillar_mm: f64,
-    /// How far pillars stay from the model.
+    /// Distance that pillars keep from the model.
     pub clearance_mm: f64,
-    /// How far a branch reaches to another pillar, level.
+    /// Horizontal reach of a branch to another pillar.
     pub branch_mm: f64,
-    /// How high pillars stand alone. Taller ones are braced with those nearby.
+    /// Greatest height of a pillar that stands alone. Taller ones are braced with those nearby.
     pub brace_mm: f64,
     /// Diameter of a foot on the plate.
     pub foot_mm: f64,
@@ -156,8 +157,8 @@ impl SupportStrength {
 }
 
 impl SupportProfile {
-    /// How far a contact holds a surface of a slope, its rise over its run: a level one as far as `spacing_mm`, one that just does not
-    /// support itself half as far again.
+    /// Radius that a contact holds on a surface of a slope (rise over run): `spacing_mm` on a level one, half as much
+    /// again on one that just does not support itself.
     pub fn reach_mm(&self, slope: f64) -> f64 {
         self.spacing_mm * (1.0 + 0.5 * (slope / self.self_supporting_slope).min(1.0))
     }
@@ -225,9 +226,9 @@ pub struct Supports {
     pub astray: Vec<usize>,
     /// Pillars that stand on the model.
     pub on_model: usize,
-    /// Where pillars, branches and braces join, in millimetres.
+    /// Points where pillars, branches and braces join, in millimetres.
     pub joints_mm: Vec<[f64; 3]>,
-    /// How far the model is lifted above the plate.
+    /// Distance by which the model is lifted above the plate.
     pub lift_mm: f64,
 }
 
@@ -261,10 +262,10 @@ const MOST_NODES: f64 = 2e7;
 /// The most rays.
 const MOST_RAYS: f64 = 4e6;
 
-/// How far a given point may be from the surface.
+/// Greatest distance of a given point from the surface.
 const ON_SURFACE_MM: f64 = 2.0;
 
-/// Room beside the model for pillars that pass it, and that their feet take.
+/// Margin around the model for pillars that pass it, including their feet.
 const BESIDE_MM: f64 = 6.0;
 
 /// The supports of a model that stands on the plate, centred on x = y = 0. They are in its frame, so the plate is below it by the lift.

@@ -9,7 +9,8 @@ use crate::prepare::shell::Shell;
 /// Doublings from four points of a circle to those around a support.
 const DOUBLINGS: u32 = 2;
 
-/// How much larger a polyhedron of 16 by 16 corners is than the ball in it: the square of the secant of half the angle between two.
+/// Ratio of a polyhedron of 16 by 16 corners to the ball inside it: the square of the secant of half the angle between
+/// two corners.
 const ENCLOSING: f64 = 1.04;
 
 /// Bodies, each a closed surface.
@@ -33,7 +34,7 @@ impl Shapes {
         self.shell.drum(rim(from, from_mm), rim(to, to_mm));
     }
 
-    /// A ball, as a stack of rims. It encloses the round one, and so the rims of what ends in its middle.
+    /// A ball, as a stack of rims. It encloses the round one, and so the rims of struts that end in its middle.
     pub fn ball(&mut self, middle: DVec3, radius_mm: f64) {
         let radius_mm = radius_mm * ENCLOSING;
         let around = circle(DOUBLINGS);

@@ -20,16 +20,16 @@ const NONE: u32 = u32::MAX;
 const MOST_TIPS: u32 = 24;
 const MOST_TIPS_ON_MODEL: u32 = 4;
 
-/// How much a pillar's area grows with each tip that it holds beyond the first.
+/// Growth of a pillar's area with each tip beyond the first.
 const GROWTH: f64 = 1.0 / 6.0;
 
 /// The longest part of a pillar between two nodes. Branches join at nodes.
 const PART_MM: f64 = 1.5;
 
-/// What a foot on the plate costs, as a length of pillar.
+/// Cost of a foot on the plate, as a length of pillar.
 const FOOT_COST_MM: f64 = 5.0;
 
-/// How many of the nearest pillars are tried.
+/// Number of nearest pillars that are tried.
 const TRIES: usize = 12;
 
 /// Lengths of tips that are tried, as parts of the usual one.
@@ -47,10 +47,10 @@ const FLARE: f64 = 0.4;
 /// The most that a floor may rise below a strut.
 const MOST_STEP_MM: f64 = 0.3;
 
-/// What feet on the plate leave between them.
+/// Least gap between feet on the plate.
 const BETWEEN_FEET_MM: f64 = 0.6;
 
-/// How much wider than its pillar a foot is at least.
+/// Least ratio of a foot's radius to its pillar's.
 const WIDER: f64 = 1.2;
 
 /// The thickest part of a strut between two surfaces, as a part of its length.
@@ -102,7 +102,7 @@ pub(super) struct Trees<'a> {
     braces: Vec<[DVec3; 2]>,
 }
 
-/// How a tip is held.
+/// Ways to hold a tip.
 enum Hold {
     /// By a new pillar: its points from the highest down, and what it stands on.
     Pillar(Vec<DVec3>, End),
@@ -350,7 +350,7 @@ impl<'a> Trees<'a> {
         true
     }
 
-    /// Radius of a foot on the plate, as far as there is room for it.
+    /// Radius of a foot on the plate, limited by the room that there is.
     fn foot_mm(&self, at: DVec3, pillar_mm: f64) -> f64 {
         let room_mm = f64::from(self.clearance.distance_mm(at + DVec3::Z * 0.2))
             - self.profile.clearance_mm / 2.0;
@@ -370,7 +370,7 @@ impl<'a> Trees<'a> {
         pillars.count() + struts.count()
     }
 
-    /// Where pillars, branches and braces join.
+    /// Points where pillars, branches and braces join.
     pub fn joints(&self) -> Vec<[f64; 3]> {
         let nodes = self.nodes.iter().filter(|node| node.above > 1);
         let joints = nodes.map(|node| node.at);
@@ -537,7 +537,7 @@ impl<'a> Trees<'a> {
     }
 }
 
-/// Where a pillar is at a height; its points ascend.
+/// The point of a pillar at a height; its points ascend.
 #[inline]
 fn at_height(points: &[DVec3], z: f64) -> Option<DVec3> {
     let pairs = points.windows(2);
@@ -548,7 +548,8 @@ fn at_height(points: &[DVec3], z: f64) -> Option<DVec3> {
     })
 }
 
-/// Pairs that join all pillars by the least distances between their feet, as far as these are within reach: a minimum spanning tree.
+/// Pairs that join all pillars within reach of each other by the least distances between their feet: a minimum spanning
+/// tree.
 fn nearest_pairs(trunks: &[Vec<DVec3>], reach_mm: f64) -> Vec<[usize; 2]> {
     let away_mm = |a: usize, b: usize| trunks[a][0].distance(trunks[b][0]);
     let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); trunks.len()];

@@ -16,7 +16,7 @@ pub enum ObjError {
     BadVertex {
         /// Line in the file, from 1.
         line: u64,
-        /// What stands there instead; empty at the end of the line.
+        /// The word found instead; empty at the end of the line.
         found: String,
     },
     /// A corner of a face is not the number of a vertex.

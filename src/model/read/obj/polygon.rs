@@ -82,7 +82,7 @@ fn ear_from(at: usize, left: &[usize], flat: &[DVec2]) -> usize {
         let [a, b, c] = around(place, left).map(|corner| flat[corner]);
         area(a, b, c)
     };
-    // Where the polygon turns left, no other corner can be the first inside an ear.
+    // A corner where the polygon turns left can never be the first inside an ear, so only the others are tested.
     let turns: Vec<f64> = (0..left.len()).map(turn).collect();
     let places = (at..left.len()).chain(0..at);
     let mut convex = places.filter(|&place| turns[place] > 0.0);

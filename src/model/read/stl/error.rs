@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What the grammar of ASCII STL expects at some place.
+/// Word or number that the grammar of ASCII STL expects at some place.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -102,7 +102,7 @@ pub enum StlError {
     Syntax {
         /// Line in the file, from 1.
         line: u64,
-        /// What the grammar expects at this place.
+        /// Expected by the grammar at this place.
         expected: StlExpected,
         /// The word found instead.
         found: String,
@@ -113,7 +113,7 @@ pub enum StlError {
     EndOfText {
         /// Last line of the file, from 1.
         line: u64,
-        /// What the grammar expects at the end.
+        /// Expected by the grammar at the end.
         expected: StlExpected,
     },
     /// A well-formed STL without facets.

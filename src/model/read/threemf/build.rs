@@ -1,4 +1,4 @@
-//! What a 3MF builds: the facets of its items, with components inside components, each where its transforms put it.
+//! The build of a 3MF: the facets of its items, with components inside components, each placed by its transforms.
 
 use std::rc::Rc;
 

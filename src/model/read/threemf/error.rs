@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-/// What is wrong with the XML of a part.
+/// Fault in the XML of a part.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -38,7 +38,7 @@ impl XmlFault {
     }
 }
 
-/// What an extension of 3MF makes an object of, other than facets.
+/// Geometry other than facets that an extension of 3MF gives an object.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]
@@ -50,7 +50,7 @@ pub enum ThreeMfFeature {
     Slices,
     /// Facets displaced by a texture.
     Displacement,
-    /// What is left of objects cut by others.
+    /// Boolean operations on other objects.
     Booleans,
     /// A function of the place.
     Volumetric,
@@ -124,7 +124,7 @@ pub enum ThreeMfError {
         part: String,
         /// Line in the part, from 1.
         line: u64,
-        /// What is wrong.
+        /// The fault.
         fault: XmlFault,
     },
     /// An attribute is missing, or its value is not what it must be.
@@ -199,7 +199,7 @@ pub enum ThreeMfError {
         /// Id of the object.
         object: u32,
     },
-    /// What is to be printed is not made of facets.
+    /// An object to be printed is not made of facets.
     #[error("{part}: object {object} is made of {}, which Cusp does not read; export the model as a mesh", feature.in_words())]
     #[serde(rename = "threemf-feature")]
     Feature {
@@ -207,7 +207,7 @@ pub enum ThreeMfError {
         part: String,
         /// Id of the object.
         object: u32,
-        /// What it is made of.
+        /// Its geometry.
         feature: ThreeMfFeature,
     },
     /// The model is encrypted.

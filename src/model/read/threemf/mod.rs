@@ -24,7 +24,7 @@ pub use error::{ThreeMfError, ThreeMfFeature, XmlFault};
 
 /// The type of the relationship that leads to the model.
 const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel";
-/// Where it nearly always is.
+/// The usual name of the model part.
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
 /// Reads what a 3MF builds: the facets of all its items, or of those on one plate, once for each placement, in file order.

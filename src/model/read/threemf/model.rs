@@ -14,13 +14,13 @@ use crate::model::read::text::named;
 /// Elements inside each other; a model has six.
 const MOST_DEPTH: usize = 64;
 
-/// What a model part says.
+/// Contents of a model part.
 pub struct Model {
     /// Name of the part.
     pub part: String,
     pub unit: ModelUnit,
     pub objects: FxHashMap<u32, Object>,
-    /// What is to be built.
+    /// Items of the build.
     pub items: Vec<Reference>,
 }
 
@@ -34,7 +34,7 @@ pub struct Object {
     pub vertices: Vec<Vec3>,
     pub facets: Vec<[u32; 3]>,
     pub components: Vec<Reference>,
-    /// What it is made of besides facets.
+    /// Geometry other than facets, if it has any.
     pub feature: Option<ThreeMfFeature>,
 }
 

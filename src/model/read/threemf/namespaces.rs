@@ -3,7 +3,7 @@
 use super::XmlFault;
 use super::xml::Attributes;
 
-/// A namespace, as far as it matters here.
+/// A namespace that the reader distinguishes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Namespace {
     /// The core specification.

@@ -126,7 +126,7 @@ impl Reader {
             b"metadata" => match (key.unwrap_or_default(), value.unwrap_or_default()) {
                 (b"name", value) if self.place.is_some() => self.name = named(&unescaped(value)),
                 (b"volume_type", value) if self.place.is_some() => self.kind = kind(value),
-                // What PrusaSlicer wrote before it had types.
+                // Written by PrusaSlicer before it had volume types.
                 (b"modifier", b"1") if self.kind.is_none() => self.kind = Some(PartKind::Modifier),
                 (b"object_id", value) => self.instance[0] = number(Some(value)),
                 (b"instance_id", value) => self.instance[1] = number(Some(value)),

@@ -6,7 +6,7 @@ use super::xml::{Attributes, Tags, unescaped};
 use super::{ThreeMfError, XmlFault};
 use crate::model::read::text::quoted;
 
-/// What is wrong with a tag, before it is known where it is.
+/// A fault in a tag, before its place is known.
 pub enum Fault {
     Xml(XmlFault),
     Attribute {
@@ -118,7 +118,7 @@ pub fn number<T: std::str::FromStr>(attribute: &'static str, value: &[u8]) -> Re
     number.ok_or_else(|| bad(attribute, value))
 }
 
-/// What is wrong with the value of an attribute; empty if it is missing.
+/// The fault of an attribute with a bad value; `value` is empty if the attribute is missing.
 pub fn bad(attribute: &'static str, value: &[u8]) -> Fault {
     Fault::Attribute {
         attribute,

@@ -33,9 +33,9 @@ pub enum Tag<'b> {
 pub struct Tags<'a> {
     part: Part<'a>,
     buffer: Vec<u8>,
-    /// Where the text begins that has not been looked at.
+    /// Start of the text not yet read.
     at: usize,
-    /// Where the last tag began.
+    /// Start of the last tag.
     start: usize,
     /// Lines before the buffer.
     lines: u64,
