@@ -12,11 +12,11 @@ const ROWS: u32 = 8u;
 struct Cell {
     // Its top left pixel.
     corner: vec2<u32>,
-    // Where its list begins.
+    // Start of its list.
     first: u32,
 }
 
-// What was peeled last: the farthest, minus the nearest, unused, and the number of facets.
+// The last facets peeled: the farthest, minus the nearest, unused, and the number of facets.
 @group(0) @binding(0) var layer: texture_2d<f32>;
 // Facets of each ray that are yet to be collected.
 @group(0) @binding(1) var<storage, read_write> counts: array<u32>;

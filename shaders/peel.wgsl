@@ -10,7 +10,7 @@
 // the upper 19 bits of the least one in single precision; the lower 13 are zero.
 const LEAST: u32 = 0x1c400u;
 
-// What the pass before kept: the farthest, minus the nearest, unused, and how many facets were between.
+// Result of the pass before: the farthest, minus the nearest, unused, and the number of facets between.
 @group(0) @binding(1) var previous: texture_2d<f32>;
 
 struct Corners {

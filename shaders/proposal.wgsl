@@ -14,7 +14,7 @@ struct Tile {
 
 // Lattice steps per pixel; twin of `STEPS` in src/ldi/projection.rs.
 const STEPS: i32 = 256;
-// How far proposals extend beyond facets, in pixels. Adapters may snap vertices to 1/16 pixel.
+// Distance by which proposals extend beyond facets, in pixels. Adapters may snap vertices to 1/16 pixel.
 const MARGIN: f32 = 0.25;
 
 @group(0) @binding(0) var<uniform> tile: Tile;
@@ -119,7 +119,7 @@ fn proposal(a: vec2<i32>, second: vec2<i32>, third: vec2<i32>, facet: u32, corne
     return Candidate(vec4<f32>(x, y, 0.0, 1.0), facet, a, b, c);
 }
 
-// Whether a pixel centre is on the inner side of an edge, by the top-left rule.
+// Returns true if a pixel centre is on the inner side of an edge, by the top-left rule.
 fn is_inside(start: vec2<i32>, end: vec2<i32>, centre: vec2<i32>) -> bool {
     let edge = end - start;
     let side = cross_sign(edge, centre - start);

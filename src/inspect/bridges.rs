@@ -19,7 +19,7 @@ const STEPS: [[i32; 2]; 8] = [
     [-1, 2],
 ];
 
-/// Unsupported pixels of a row that are so many steps from a supported one.
+/// Unsupported pixels of a row at the same number of steps from a supported one.
 #[derive(Clone, Copy)]
 struct Stretch {
     span: Span,
@@ -98,7 +98,7 @@ impl Bridges {
     }
 }
 
-/// What there is to bridge, and the rows that matter.
+/// Unsupported and supported pixels of a layer, and the rows that are examined.
 struct Layer<'a> {
     unsupported: &'a Rows,
     supported: &'a Rows,

@@ -11,7 +11,7 @@ use crate::grid::Grid;
 use crate::order::sort_by_number;
 use crate::plan::Plan;
 
-/// How many findings of a kind are listed: the largest.
+/// Number of findings of a kind that are listed: the largest ones.
 pub(super) const LISTED: usize = 100;
 
 /// Turns pixels and layers into millimetres.
@@ -59,7 +59,7 @@ impl<'a> Frame<'a> {
         pixels as f64 * self.grid.pixel_mm2()
     }
 
-    /// The volume of so many pixels times bins.
+    /// The volume of a number of pixels times bins.
     pub fn volume_mm3(&self, volume: u64) -> f64 {
         volume as f64 * self.grid.pixel_mm2() * self.bin_mm
     }
@@ -110,7 +110,7 @@ impl<'a> Frame<'a> {
         [low, high]
     }
 
-    /// What is known of a tree, as a finding.
+    /// A finding with the extent of a tree.
     pub fn finding(&self, code: Code, tree: &Tree) -> Finding {
         let layers = [tree.first, tree.last];
         Finding {

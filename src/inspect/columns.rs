@@ -1,7 +1,8 @@
 //! Floors and gaps that are too thin along z.
 //!
-//! A lit pixel is thin if its column is lit for less than the limit, and no pixel of its layer within the limit has a column
-//! that is lit longer: beside a thick part, a thin column is the edge of it. The same holds for the dark between lit pixels.
+//! A lit pixel is thin if its column is lit for less than the limit, and no pixel of its layer within the limit has a
+//! column that is lit longer: a thin column next to a thick part is the edge of it. The same holds for the dark between
+//! lit pixels.
 
 use super::collect::Frame;
 use super::finding::Code;
@@ -34,7 +35,7 @@ fn until(frame: &Frame<'_>, limit_mm: f64) -> Vec<u32> {
     (0..layers).map(first).collect()
 }
 
-/// The pixels of short columns in a layer that are not beside longer ones, given all pixels of either kind.
+/// The pixels of short columns in a layer that are not near longer ones, given all pixels of either kind.
 pub(super) fn thin(short: &Rows, all: &Rows, limit: &Disc) -> Rows {
     let margin = (all.len() - short.len()) / 2;
     let reach = limit.rows();

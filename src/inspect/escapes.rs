@@ -210,7 +210,7 @@ impl<'a> Escapes<'a> {
         if components.patches.is_empty() {
             return;
         }
-        // What is in no gap is before the first or after the last lit pixel of its row: outside.
+        // A pixel in no gap is before the first or after the last lit pixel of its row: outside.
         let mut within = vec![Forest::OUTSIDE; components.patches.len()];
         for [gap, room] in components.contacts(&gaps.components) {
             within[room as usize] = hollows.tree(gap);

@@ -1,4 +1,4 @@
-//! What the checks find, and how it is said.
+//! Findings of the checks, and their sentences.
 
 use std::fmt::{self, Display, Formatter};
 
@@ -95,9 +95,9 @@ impl Code {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Finding {
-    /// What it is.
+    /// Its kind.
     pub code: Code,
-    /// How much it matters.
+    /// Its severity.
     pub severity: Severity,
     /// A point of it: x, y and z in millimetres, with the model centred on x = y = 0 and the plate at z = 0.
     pub at_mm: [f64; 3],

@@ -1,6 +1,6 @@
-//! What hangs together over layers, followed from the plate upward.
+//! Connected components over layers, followed from the plate upward.
 //!
-//! A tree is a set of components of the layers so far that hang together. Each layer's components join the trees that they
+//! A tree is a connected set of components of the layers so far. Each layer's components join the trees that they
 //! meet below, or begin new ones. The same sweep finds bodies and islands among lit components, cups and traps among dark
 //! ones, and joins findings of consecutive layers.
 
@@ -19,7 +19,7 @@ pub(super) enum End {
     Top,
 }
 
-/// What happens to the younger of two trees that a component joins.
+/// Fate of the younger of two trees that a component joins.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Joining {
     /// It ends, and its volume counts as the older one's.
@@ -69,7 +69,7 @@ impl Tree {
         }
     }
 
-    /// Takes the volume of another tree, and all else if they are one from the beginning.
+    /// Takes the volume of another tree, and its extent as well if they unite.
     fn absorb(&mut self, other: &Self, joining: Joining) {
         self.volume += other.volume;
         self.around.extend(&other.around);

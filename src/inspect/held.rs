@@ -1,23 +1,23 @@
-//! Where supports touch the model: what they hold there, and what is thin because a tip is.
+//! Contacts of supports: the surfaces that they hold, and thin places that are due to a tip.
 
 use super::collect::Frame;
 use super::rows::{Disc, Rows, Span};
 use crate::order::sort_by_number;
 
-/// Where supports touch the model and each other.
+/// Places where supports touch the model and each other.
 #[derive(Debug, Clone, Default, PartialEq)]
 pub struct Held {
-    /// Where they are: x, y and z in millimetres, as in findings.
+    /// Contacts: x, y and z in millimetres, as in findings.
     pub contacts_mm: Vec<[f64; 3]>,
-    /// How far each holds a surface that is too flat to support itself, sideways and upward.
+    /// Distance, sideways and upward, within which each contact holds a surface that is too flat to support itself.
     pub reach_mm: f64,
-    /// How far a tip reaches sideways. Walls and gaps there are its own.
+    /// Radius of a tip. Walls and gaps within it are its own.
     pub tip_reach_mm: f64,
-    /// How far a tip reaches down from its contact.
+    /// Length of a tip down from its contact.
     pub tip_mm: f64,
-    /// Where branches join, and how far gaps between them reach from there.
+    /// Joints of branches.
     pub joints_mm: Vec<[f64; 3]>,
-    /// How far from a joint gaps are those of its branches.
+    /// Distance from a joint within which gaps are those between its branches.
     pub joint_reach_mm: f64,
 }
 
@@ -31,17 +31,17 @@ pub(super) struct Holds {
 }
 
 impl Holds {
-    /// What contacts hold.
+    /// Surfaces that contacts hold.
     pub fn of_surfaces(held: &Held, frame: &Frame<'_>) -> Self {
         Self::new(&held.contacts_mm, held.reach_mm, 0.0, frame)
     }
 
-    /// Where tips are.
+    /// The tips.
     pub fn of_tips(held: &Held, frame: &Frame<'_>) -> Self {
         Self::new(&held.contacts_mm, held.tip_reach_mm, held.tip_mm, frame)
     }
 
-    /// Where branches join.
+    /// The joints of branches.
     pub fn of_joints(held: &Held, frame: &Frame<'_>) -> Self {
         let reach_mm = held.joint_reach_mm;
         Self::new(&held.joints_mm, reach_mm, reach_mm, frame)

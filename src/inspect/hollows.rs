@@ -40,7 +40,7 @@ impl Gaps {
     }
 }
 
-/// How the gaps of a layer meet those of the layer below, and the outside.
+/// Contacts between the gaps of a layer and those of the layer below, and gaps that are open to the outside.
 #[derive(Default)]
 pub(super) struct Meetings {
     pub contacts: Vec<[u32; 2]>,

@@ -19,7 +19,7 @@ use crate::parallel;
 /// Layers that are read at a time.
 const GROUP: usize = 64;
 
-/// What the pixels of a layer tell.
+/// Results from the pixels of a layer alone.
 pub(super) struct Alone {
     pub lit: Components,
     pub gaps: Gaps,
@@ -28,7 +28,7 @@ pub(super) struct Alone {
     extents: Extents,
 }
 
-/// What a layer and the one below tell.
+/// Results from a layer and the one below.
 pub(super) struct Layer {
     pub number: usize,
     pub alone: Arc<Alone>,
@@ -36,7 +36,7 @@ pub(super) struct Layer {
     pub contacts: Vec<[u32; 2]>,
     pub meetings: Meetings,
     pub room_meetings: Meetings,
-    /// What a self-supporting slope spans in the layer.
+    /// Width that a self-supporting slope spans in the layer.
     pub width: Disc,
     /// Pixels that would be unsupported if all of the layer below were supported.
     pub flat: Rows,
@@ -190,7 +190,7 @@ impl Checks<'_> {
     }
 }
 
-/// How dark places of a kind meet those of the layer below.
+/// Contacts of dark places of a kind with those of the layer below.
 fn meetings(
     here: &Alone,
     below: Option<&Alone>,

@@ -1,10 +1,10 @@
-//! What a shop accepts: thresholds, and how much each kind of finding matters.
+//! Acceptance rules of a shop: thresholds, and the severity of each kind of finding.
 
 use serde::{Deserialize, Serialize};
 
 use super::finding::Code;
 
-/// How much a finding matters.
+/// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -18,8 +18,8 @@ pub enum Severity {
     Reject,
 }
 
-/// Thresholds of the checks, and the severity of what they find. The defaults are the least strict of the rules that printing
-/// services publish for resin, so what they find, most services would ask about.
+/// Thresholds of the checks, and the severity of their findings. The defaults are the least strict of the rules that
+/// printing services publish for resin, so most services would ask about every finding.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -31,9 +31,9 @@ pub struct Limits {
     pub speck_px: u32,
     /// The flattest surface that supports itself, as its rise over its run.
     pub self_supporting_slope: f64,
-    /// How far a flatter surface may reach out, in millimetres.
+    /// Greatest overhang of a flatter surface, in millimetres.
     pub overhang_mm: f64,
-    /// How far it may span from one support to another, in millimetres.
+    /// Greatest span of it from one support to another, in millimetres.
     pub bridge_mm: f64,
     /// Cups count from this area on: the largest of a layer, in mm².
     pub cup_mm2: f64,
@@ -57,7 +57,7 @@ pub struct Limits {
     pub peel_jump_mm2: Option<f64>,
     /// The least area on the plate as a fraction of the largest layer's; no limit if absent.
     pub contact: Option<f64>,
-    /// How much each kind of finding matters.
+    /// The severity of each kind of finding.
     pub severity: Severities,
 }
 

@@ -40,7 +40,7 @@ use layer::Reader;
 use rows::Area;
 use sweep::Sweep;
 
-/// What a shop does with a print.
+/// Decision of a shop about a print.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -54,18 +54,18 @@ pub enum Verdict {
     Reject,
 }
 
-/// How many findings of a kind there are. The largest are listed.
+/// Number of findings of a kind. Only the largest are listed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Count {
     /// The kind.
     pub code: Code,
-    /// How many there are.
+    /// Number of findings.
     pub found: usize,
 }
 
-/// What was found.
+/// Result of the checks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -78,7 +78,7 @@ pub struct Printability {
     pub counts: Vec<Count>,
     /// Number of bodies that touch no other.
     pub bodies: usize,
-    /// What has to be peeled off, layer by layer.
+    /// Areas to be peeled off the film, layer by layer.
     pub peel: Peel,
 }
 

@@ -1,9 +1,10 @@
 //! Overhangs: surfaces that are too flat to support themselves and reach out too far.
 //!
-//! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope spans in
-//! this layer. All of the first layer is. Of an island, too: whoever supports it does so there. An overhang is where
-//! unsupported pixels are farther than a limit from all supported pixels of their layer. Those of them that bridge the way from one
-//! supported pixel to another are supported by both, and those near the contact of a support by it.
+//! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope
+//! spans in this layer. All of the first layer is supported. So is an island, as whatever will support it does so
+//! there. An overhang is where unsupported pixels are farther than a limit from all supported pixels of their layer.
+//! Unsupported pixels that bridge the way from one supported pixel to another are supported by both, and those near the
+//! contact of a support by it.
 
 use super::bridges::Bridges;
 use super::collect::{Collector, Frame};
@@ -15,7 +16,7 @@ use super::limits::Limits;
 use super::regions::Regions;
 use super::rows::{Disc, Rest, Rows, Span};
 
-/// What a slope spans in a layer, in pixels.
+/// Width that the least self-supporting slope spans in a layer, in pixels.
 pub(super) fn width(layer: usize, frame: &Frame<'_>, limits: &Limits) -> Disc {
     let pitch_mm = frame.grid.pitch_mm.max(frame.grid.pitch_y_mm);
     let run_mm = frame.thickness_mm(layer) / limits.self_supporting_slope;

@@ -1,4 +1,4 @@
-//! How much of each layer has to be peeled off the film, and how much holds the print on the plate.
+//! Areas of layers: the area that is peeled off the film, and the area that holds the print on the plate.
 
 use serde::Serialize;
 
@@ -18,7 +18,7 @@ pub struct Peel {
     pub largest_layer: usize,
     /// The layer that has most more area than the one below, from 0: 0 if none has more.
     pub jump_layer: usize,
-    /// How much more it has, in mm².
+    /// Increase of its area over the layer below, in mm².
     pub jump_mm2: f64,
     /// The area on the plate as a fraction of the largest.
     pub contact: f64,

@@ -176,7 +176,7 @@ impl Rows {
         gaps
     }
 
-    /// All dark pixels, with `margin` dark rows above and below, and as far as [`FAR`] on both sides.
+    /// All dark pixels, with `margin` dark rows above and below, and out to [`FAR`] on both sides.
     pub fn inverted(&self, margin: i32) -> Self {
         let mut dark = Self {
             spans: Vec::with_capacity(self.spans.len() + self.ends.len()),
@@ -341,7 +341,7 @@ impl Disc {
         self.half_widths.len() as i32 - 1
     }
 
-    /// Columns on each side, so many rows from the middle.
+    /// Columns on each side in the row at this distance from the middle; `None` outside the disc.
     pub fn half_width(&self, row: i32) -> Option<i32> {
         self.half_widths.get(row.unsigned_abs() as usize).copied()
     }
@@ -402,7 +402,7 @@ impl Rest {
         self.rest.is_empty()
     }
 
-    /// What is left.
+    /// The remaining spans.
     pub fn spans(&self) -> &[Span] {
         &self.rest
     }

@@ -43,7 +43,7 @@ impl<'a> Sweep<'a> {
             overhangs: Overhangs::new(frame, limits, held),
             tips: Holds::of_tips(held, frame),
             joints: Holds::of_joints(held, frame),
-            // What is as low as it is thin is the tip of something, or thin along z.
+            // A region no taller than it is thin is the tip of a feature, or thin along z.
             walls: regions(Code::ThinWall, limits.wall_mm, limits.wall_mm),
             gaps: regions(Code::NarrowGap, limits.gap_mm, limits.gap_mm),
             // A hollow that begins or ends with a tip is no hole.

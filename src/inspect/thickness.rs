@@ -15,7 +15,7 @@ use crate::grid::Grid;
 pub(super) struct Thickness {
     /// The disc that must fit.
     disc: Disc,
-    /// How far its centre may be.
+    /// Greatest distance of its centre.
     reach: Disc,
     /// Rows that are looked at together.
     block_rows: i32,
@@ -24,7 +24,7 @@ pub(super) struct Thickness {
 }
 
 impl Thickness {
-    /// `None` if the limit is less than what pixels resolve, so that nothing is thin.
+    /// `None` if the limit is below the resolution of the pixels, so that nothing is thin.
     pub fn new(limit_mm: f64, grid: &Grid) -> Option<Self> {
         let disc = Disc::to_fit(limit_mm, grid)?;
         let disc_rows = 2 * disc.rows() + 1;
@@ -42,7 +42,7 @@ impl Thickness {
         self.thin(lit, 0, [-FAR, FAR])
     }
 
-    /// The dark pixels that are thin, in so many columns. Outside the rows all is dark.
+    /// The thin dark pixels in the first `columns` columns. Everything outside the rows is dark.
     pub fn thin_gaps(&self, lit: &Rows, columns: i32) -> Rows {
         let margin = self.reach.rows() + 2 * self.disc.rows() + 2 * self.block_rows;
         self.thin(&lit.inverted(margin), margin, [0, columns])
@@ -159,7 +159,7 @@ struct Centres<'a> {
     solid: &'a Rows,
     disc: &'a Disc,
     spans: Vec<Span>,
-    /// Where the spans of each row are, if they have been asked for.
+    /// Places of each row's spans, if they have been requested.
     places: Vec<Option<Range<usize>>>,
     common: Vec<Span>,
     next: Vec<Span>,

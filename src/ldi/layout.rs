@@ -19,13 +19,13 @@ pub const SCAN_BLOCK: u32 = 1024;
 pub struct Cell {
     /// Its top left pixel, from the tile's.
     pub corner: [u32; 2],
-    /// Where its list begins among those of the tile.
+    /// Start of its list among those of the tile.
     pub first: u32,
     /// Always 0.
     pub padding: u32,
 }
 
-/// Facets that the list of a cell may have: half precision has so many normal positive numbers below its greatest.
+/// Greatest number of facets in a cell's list: the number of normal positive half-precision numbers below the greatest.
 pub const CELL_FACETS: usize = 0x7bff - 0x400;
 
 /// Columns and rows of the workgroups of shaders/collect.wgsl, in rays.

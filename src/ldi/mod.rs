@@ -31,7 +31,7 @@ use crate::progress::Cancelled;
 /// Rays that a thread processes at a time.
 const CHUNK_RAYS: usize = 1 << 16;
 
-/// What went wrong on a GPU.
+/// Fault of a GPU.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -46,7 +46,7 @@ pub enum GpuFault {
     TooManyHits,
     /// It returned offsets that do not add up.
     BadOffsets,
-    /// What it sampled did not fit into memory.
+    /// Its results did not fit into memory.
     OutOfMemory,
 }
 
@@ -109,7 +109,7 @@ pub enum LdiError {
     #[error("no usable GPU: {system}")]
     #[serde(rename = "no-gpu")]
     NoGpu {
-        /// What the system said, untranslated.
+        /// The system's message, untranslated.
         system: String,
     },
     /// Only hardware was asked for, and the GPU is emulated.
@@ -136,9 +136,9 @@ pub enum LdiError {
     #[error("the GPU failed: {}", fault.in_words(system.as_deref()))]
     #[serde(rename = "gpu-failed")]
     GpuFailed {
-        /// What went wrong.
+        /// The fault.
         fault: GpuFault,
-        /// What the system said, untranslated; absent where it said nothing.
+        /// The system's message, untranslated; absent if there is none.
         system: Option<String>,
     },
 }
@@ -197,7 +197,7 @@ pub struct Ldi {
     pub offsets: Vec<u32>,
     /// Hits of all rays, sorted by (height, facet) within each ray.
     pub hits: Vec<Hit>,
-    /// What the facets of the sampled mesh belong to.
+    /// Classes of the facets of the sampled mesh.
     pub classes: FacetClasses,
 }
 

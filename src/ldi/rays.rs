@@ -1,4 +1,4 @@
-//! The rays of a mesh band by band, whether an LDI holds them or each pass over them finds them anew.
+//! The rays of a mesh band by band, either held by an LDI or found again in each pass.
 
 use super::cpu::Scan;
 use super::projection::Projection;
@@ -13,7 +13,7 @@ pub(super) const BAND_ROWS: u32 = 32;
 /// Parts of an image that are passed over side by side. Sums over rays are made part by part, so they do not depend on the number
 /// of threads.
 const PARTS: usize = 16;
-/// How often a pass that finds rays anew reports progress.
+/// Number of progress reports of a pass that finds rays again.
 const ROUNDS: usize = 64;
 
 /// The hits of some whole rows of rays.
@@ -21,11 +21,11 @@ const ROUNDS: usize = 64;
 pub struct Rays<'a> {
     /// The first of the rows.
     pub first_row: u32,
-    /// Where the hits of each ray begin, and where those of the last one end. The first number is that of `hits[0]`.
+    /// Start of the hits of each ray, and the end of the last ray's. The first number is that of `hits[0]`.
     pub offsets: &'a [u32],
     /// The hits of all of these rays, sorted by (height, facet) within each ray.
     pub hits: &'a [Hit],
-    /// What the facets of the sampled mesh belong to.
+    /// Classes of the facets of the sampled mesh.
     pub classes: FacetClasses,
 }
 
@@ -53,12 +53,13 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// Leave to find hits anew instead of keeping them.
+/// Permission to find hits again in each pass instead of keeping them.
 #[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Anew;
 
-/// Leave to find hits anew, which nobody has in browsers: what cannot be is not compiled, and the module stays 20 KB smaller.
+/// Permission to find hits again in each pass, which browsers never have: the type has no values, so that code is not
+/// compiled and the module stays 20 KB smaller.
 #[cfg(target_arch = "wasm32")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anew {}
@@ -68,7 +69,7 @@ pub enum Anew {}
 pub enum RayImage<'a> {
     /// Those of an LDI.
     Kept(&'a Ldi),
-    /// Those of a mesh through a grid, found anew in every pass by the CPU: a band of rows per thread is in memory.
+    /// Those of a mesh through a grid, found again in every pass by the CPU: a band of rows per thread is in memory.
     Scanned {
         /// The mesh.
         mesh: &'a Mesh,
@@ -79,7 +80,7 @@ pub enum RayImage<'a> {
     },
 }
 
-/// Where a pass has its bands from.
+/// Source of a pass's bands.
 enum Bands<'a> {
     Kept(&'a Ldi),
     Scanned(Scan<'a>),
@@ -94,7 +95,7 @@ impl RayImage<'_> {
         }
     }
 
-    /// What the facets of the sampled mesh belong to.
+    /// Classes of the facets of the sampled mesh.
     pub fn classes(&self) -> FacetClasses {
         match self {
             Self::Kept(ldi) => ldi.classes,

@@ -1,4 +1,4 @@
-//! What one pass over all rays tells of the sampled model.
+//! Facts about the sampled model from one pass over all rays.
 
 use super::solid::Heights;
 use super::visibility::is_in_turn;
@@ -6,12 +6,12 @@ use super::{Hit, RayImage, Rays, Solid, printed_ranges, ranges};
 use crate::model::FacetClass;
 use crate::progress::{Cancelled, Progress};
 
-/// What one pass over all rays tells of the sampled model.
+/// Facts about the sampled model from one pass over all rays.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Survey {
     /// Number of hits.
     pub hits: u64,
-    /// What is printed.
+    /// The printed solid.
     pub solid: Solid,
     /// Volume of supports outside the model, in mm³.
     pub support_mm3: f64,

@@ -8,7 +8,7 @@ use crate::model::crossing::crossed;
 use crate::model::{Mesh, bodies};
 use crate::progress::{Cancelled, Progress};
 
-/// What an LDI shows about the facets of its mesh.
+/// Visibility of the facets of a mesh, as an LDI shows it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visibility {
     /// For each facet, whether it is wholly inside: at least one ray meets it, all that do are inside the solid there, and no other
@@ -17,7 +17,7 @@ pub struct Visibility {
     /// The facets that are not hidden although a ray meets them inside the solid, ascending: they may cross the surface.
     pub partly_inside: Vec<u32>,
     /// True if bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
-    /// the sum of what the facets enclose.
+    /// the sum of the areas that facets enclose.
     pub overlaps: bool,
 }
 
@@ -91,7 +91,7 @@ pub fn visibility(
     })
 }
 
-/// What all rays see of each facet.
+/// Marks of each facet from all rays.
 fn seen_along(
     mesh: &Mesh,
     image: RayImage<'_>,

@@ -6,7 +6,7 @@ use crate::parallel;
 /// Marks a pixel that is lit.
 const LIT: u32 = 1 << 31;
 
-/// How many layers a pixel must stay lit or dark so as not to be short.
+/// Ends of the shortest spans of layers, lit or dark, that do not count as short.
 pub(crate) struct Until {
     /// For each layer, the first one at which a pixel that is lit from there on may become dark.
     pub lit: Vec<u32>,
@@ -55,7 +55,7 @@ fn short_in(band: &Band, samples: Samples, layers: usize, until: &Until) -> [Vec
     let half = samples.total().div_ceil(2) as u8;
     let pixels = band.area.len();
     let mut samples_lit = vec![0u8; pixels];
-    // The layer, from 1, from which each pixel is as it is, and whether it is lit; 0 if it never was.
+    // The layer, from 1, at which each pixel took its present state, and that state; 0 if it was never lit.
     let mut since = vec![0u32; pixels];
     let mut found = [Vec::new(), Vec::new()];
     let mut add = |place: usize, from: u32, to: u32, is_lit: bool| {

@@ -1,8 +1,8 @@
 //! Parts of masks that compensation erases.
 //!
-//! Shrinking takes a rim away, and moving surfaces up that face down takes what is thinner than that; the print grows back over it from what
-//! stays lit beside it. A part that lies farther from all that stays lit in its layer is lost. Such parts are found as masks are shrunk,
-//! row by row, without a mask.
+//! Shrinking takes a rim away, and moving downward surfaces up takes away everything that is thinner than that
+//! distance; the print grows back over it from the part that stays lit. A part that lies farther from all lit pixels of
+//! its layer is lost. Such parts are found as masks are shrunk, row by row, without a mask.
 
 use std::ops::Range;
 
@@ -15,8 +15,8 @@ use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
 
-/// Distance from what stays lit at which a part is lost, in parts of what is taken away in x and y: the tip of a corner of 60° lies so far from what
-/// stays of it.
+/// Distance from the remaining lit area at which a part is lost, as a multiple of the distance taken away in x and y:
+/// the tip of a corner of 60° is that far from the rest of it.
 const REACH_XY: f64 = 2.0;
 
 /// The same along z: the edge of a wedge that rises by 19°, below which surfaces need supports.

@@ -38,7 +38,7 @@ use window::Place;
 pub struct Masks {
     /// The pixels.
     pub grid: Grid,
-    /// What the light of a pixel is averaged over.
+    /// Sampling pattern over which the light of a pixel is averaged.
     pub samples: Samples,
     /// The part of the mask that the model covers. All pixels outside it are dark in every layer.
     pub window: Window,

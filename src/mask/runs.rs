@@ -157,7 +157,7 @@ impl RunReader for Reader<'_> {
     }
 }
 
-/// How far masks have been read.
+/// Position of a reader in the masks.
 pub struct ReadPlace {
     states: Vec<State>,
     next: usize,
@@ -215,7 +215,7 @@ fn greys(samples: Samples) -> Vec<u8> {
         .collect()
 }
 
-/// Where the pixels of a band are on the screen.
+/// Position of a band's pixels on the screen.
 struct Place {
     /// Pixels of each row of the window.
     row_pixels: u32,

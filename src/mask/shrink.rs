@@ -12,7 +12,7 @@ use super::{Change, each_change};
 use crate::grid::Grid;
 use crate::ldi::{Ldi, printed_ranges};
 
-/// What masks make up for.
+/// Compensations in masks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shrinking {
     /// For each layer, by how much lit areas shrink on each side, in millimetres; negative: grow.

@@ -1,8 +1,8 @@
 //! Masks whose changes are found slab by slab, while they are read.
 //!
-//! The changes of all masks are as many as the hits of an LDI. Where neither fits into memory, a few layers at a time do: a slab is
-//! as many layers as have the changes that may be held. Its hits are found anew, and a winding number per ray says how each enters
-//! it.
+//! All masks together have as many changes as an LDI has hits. If neither fits into memory, a few layers at a time do:
+//! a slab is the number of layers whose changes fit the limit. Its hits are found again, and a winding number per ray
+//! says how each enters it.
 
 use std::collections::BTreeMap;
 use std::ops::Range;
@@ -75,7 +75,7 @@ fn hits_of_layers(mesh: &Mesh, rays: &Grid, plan: &Plan) -> Vec<f64> {
     let layers = plan.layers();
     let middles = SublayerOf::new(plan, 1);
     let layer_of = |z_mm: f32| (middles.first_above(z_mm) as usize).min(layers - 1);
-    // How much more a layer has than the one below.
+    // Increase in hits from each layer to the next.
     let mut rises = vec![0.0; layers + 1];
     for facet in 0..mesh.facets.len() {
         let of = mesh.facets[facet].map(|vertex| layer_of(mesh.vertices[vertex as usize].z));
@@ -241,7 +241,7 @@ fn flips_along(
             return;
         }
         match entered.take() {
-            // What begins and ends between two sampling heights changes nothing.
+            // A range that begins and ends between two sampling heights changes nothing.
             Some(on) if on == sublayer => return,
             Some(on) => flip(on, 1),
             None => {}

@@ -1,4 +1,5 @@
-//! The fewest layers where no plane is preferred, layer by layer: only those planes are looked at that a plan of as few can have.
+//! The fewest layers without snap planes, breadth-first by layers: only planes that a plan of the fewest layers can
+//! have are examined.
 
 use std::ops::RangeInclusive;
 
@@ -63,7 +64,7 @@ pub(super) fn fewest(errors: &ErrorSum, segment: &Segment, tolerance: u64) -> Op
 struct Layer<'a> {
     errors: &'a ErrorSum,
     segment: &'a Segment,
-    /// Where it may begin.
+    /// Planes at which it may begin.
     starts: &'a Ends,
     /// For each of these planes, the smallest maximum error of the layers below, in steps.
     worst: &'a [u64],

@@ -27,7 +27,7 @@ const NO_PLAN: i32 = 1 << 29;
 /// An interval of places in the list of thicknesses, both ends included, for each member of a set.
 type Node = Vec<(usize, usize)>;
 
-/// What the search needs to know of a model.
+/// A model as the search sees it.
 pub(super) struct Search {
     bins: Bins,
     /// All thicknesses that layers may have in any segment, in units, ascending.
@@ -236,13 +236,13 @@ fn union(node: &[(usize, usize)]) -> Vec<usize> {
     places
 }
 
-/// How many thicknesses the members of a node's sets may have beside the least of each.
+/// Total width of a node's intervals: thicknesses beyond the least of each.
 fn width(node: &[(usize, usize)]) -> usize {
     node.iter().map(|&(low, high)| high - low).sum()
 }
 
-/// Halves the widest interval of a node: the sets whose member is in the lower half of it, and those where it is in the upper; `None`
-/// if the node is a single set. Members ascend, so the intervals beside shrink as well.
+/// Halves the widest interval of a node: the sets whose member is in the lower half of it, and those where it is in the
+/// upper; `None` if the node is a single set. Members ascend, so adjacent intervals shrink as well.
 fn halves(node: &[(usize, usize)]) -> Option<[Node; 2]> {
     let width = |member: &usize| node[*member].1 - node[*member].0;
     let member = (0..node.len()).max_by_key(width)?;

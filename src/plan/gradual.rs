@@ -160,7 +160,7 @@ fn fewest(
 struct Minima {
     /// For each place the least value of its window.
     least: Vec<Best>,
-    /// Where that is; the lowest place of equals.
+    /// Place of that value; the lowest place if several are equal.
     places: Vec<u32>,
     /// Places of the window whose values ascend: none has a smaller one after it.
     queue: VecDeque<usize>,

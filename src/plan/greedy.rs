@@ -6,7 +6,7 @@ use super::segment::{Segment, Segments, boundaries_below};
 use super::{Limits, Plan, PlanError};
 use crate::profile::{LayerErrors, Reach};
 
-/// What a greedy planner sees.
+/// Information that a greedy planner uses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Sight {
     /// The profile: a layer takes as many bins as stay within tolerance (section 3.3).
@@ -48,7 +48,7 @@ pub fn plan(
 }
 
 fn thickest_within(errors: &LayerErrors, segment: &Segment, plane: u32, tolerance: u64) -> u32 {
-    // None is thicker than what is left of the segment.
+    // No layer is thicker than the rest of the segment.
     let greatest = (*segment.thickness.end()).min(segment.units - plane);
     let mut layers = layers_above(errors, segment, plane, tolerance);
     let is_within = |&units: &u32| {

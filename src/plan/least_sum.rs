@@ -25,11 +25,11 @@ pub struct LeastSum {
 /// Plans the least sum of errors for every number of layers up to `most_layers`, from the fewest up. Numbers of which there is no
 /// plan are left out. No layer exceeds the tolerance. Of plans with the same sum it returns one with the smallest maximum error.
 ///
-/// A sum may grow with the number of layers: the numbers are all there is, not only those that lower the sum.
+/// A sum may grow with the number of layers: all numbers are returned, not only those that lower the sum.
 ///
-/// Cost: time in layers times planes times thicknesses. Memory: 8 bytes for each pair of plane and thickness, and 2 for each pair
-/// of a number of layers and a plane that so many layers reach. For 30,000 bins, layers of 25 to 75 bins and all numbers of
-/// layers these are 12 and 24 MB. Thicknesses more than 65,535 units above the least are not considered.
+/// Cost: time in layers times planes times thicknesses. Memory: 8 bytes for each pair of plane and thickness, and 2 for
+/// each pair of a number of layers and a plane that it reaches. For 30,000 bins, layers of 25 to 75 bins and all
+/// numbers of layers these are 12 and 24 MB. Thicknesses more than 65,535 units above the least are not considered.
 ///
 /// # Errors
 /// [`PlanError::LayersOutOfReach`] if every plan within tolerance has more layers, [`PlanError::Infeasible`] if there is none.
@@ -74,7 +74,7 @@ pub fn plans(
 struct Errors {
     /// The least thickness in units.
     least: usize,
-    /// How many thicknesses there are.
+    /// Number of thicknesses.
     count: usize,
     /// The top, in units.
     top: usize,

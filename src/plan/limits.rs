@@ -36,9 +36,9 @@ pub struct Limits {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(deny_unknown_fields)]
 pub struct HeightRange {
-    /// Where it begins, above the plate.
+    /// Its lower end, above the plate.
     pub from_mm: f64,
-    /// Where it ends, above the plate.
+    /// Its upper end, above the plate.
     pub to_mm: f64,
     /// Minimum layer thickness within it.
     pub layer_min_mm: f64,

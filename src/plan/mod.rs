@@ -92,9 +92,9 @@ pub enum PlanError {
     )]
     #[serde(rename = "bad-range")]
     BadRange {
-        /// Where it begins.
+        /// Its lower end.
         from_mm: f64,
-        /// Where it ends.
+        /// Its upper end.
         to_mm: f64,
     },
     /// A plane that does not lie within the model.
@@ -173,7 +173,7 @@ pub enum PlanError {
     )]
     #[serde(rename = "too-few-thicknesses")]
     TooFewThicknesses {
-        /// How many there may be.
+        /// The greatest number allowed.
         thicknesses: usize,
         /// A number for which there is a plan.
         enough: usize,
@@ -196,7 +196,7 @@ pub enum PlanError {
     LayersOutOfReach {
         /// The layers asked for.
         layers: usize,
-        /// What the thickest layers come to.
+        /// The fewest layers that are possible.
         least_layers: usize,
     },
     /// No tolerance gives a plan with so short a print.
@@ -205,7 +205,7 @@ pub enum PlanError {
     TimeOutOfReach {
         /// The time asked for, in seconds.
         time_s: f64,
-        /// What the fastest plan takes, in whole seconds that are enough.
+        /// Print time of the fastest plan, rounded up to whole seconds.
         least_time_s: f64,
     },
     /// A limit, or a number of the resin, is out of bounds.

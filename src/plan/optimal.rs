@@ -7,7 +7,7 @@ use super::{Limits, Plan, PlanError, by_layers, timed, tradeoff};
 use crate::profile::{LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
 
-/// What a plan minimises.
+/// Quantity that a plan minimises.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Objective<'a> {
     /// The number of layers, K.
@@ -39,7 +39,7 @@ pub fn plan(
         .map_err(|blocked| infeasible(&blocked, errors, limits, objective))
 }
 
-/// Where there is no plan, and what would do.
+/// The error for limits without a plan, with the tolerance or minimum thickness that would allow one.
 pub(super) fn infeasible(
     blocked: &Blocked,
     errors: &LayerErrors,
@@ -59,7 +59,7 @@ pub(super) fn infeasible(
     }
 }
 
-/// Where no plan is within tolerance.
+/// Place at which no plan is within tolerance.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Blocked {
     /// The segment that cannot be filled within tolerance.
@@ -323,7 +323,7 @@ pub fn fill_cheapest(
         for (thickness, top) in tops(segment, plane) {
             let [price, weight] = preferred.within_layer(plane, top);
             let found = [cost + cost_of(thickness) + price, missed + weight, worst];
-            // What is no better without the error of this layer need not be measured.
+            // A plan that is no better even without this layer's error need not be measured.
             if found >= table.at(top) {
                 continue;
             }

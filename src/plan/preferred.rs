@@ -8,11 +8,11 @@ use crate::order::ascending;
 pub struct SnapPlanes<'a> {
     /// Boundaries of bins, the most important first.
     pub planes: &'a [u32],
-    /// What doing without one costs.
+    /// Cost of omitting one.
     pub price: Price,
 }
 
-/// What it costs to do without a snap plane.
+/// Cost of omitting a snap plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Price {
     /// As much as a layer, or the time of the thinnest one. Where both cost the same, the plane is kept.
@@ -113,7 +113,7 @@ impl Preferred {
         [all[0] - beyond[0], all[1] - beyond[1]]
     }
 
-    /// What is left of price and weight without the snap planes from `plane` upward.
+    /// Price and weight less those of the snap planes from `plane` upward.
     pub(super) fn below(&self, [price, weight]: [u64; 2], plane: u32) -> [u64; 2] {
         let beyond = self.from(plane);
         [price - beyond[0], weight - beyond[1]]

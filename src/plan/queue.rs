@@ -17,7 +17,7 @@ pub(super) struct Candidate<Cost, Mark> {
     pub cost: Cost,
     /// The smallest maximum error of the layers below, in steps.
     pub worst: u64,
-    /// What errors of layers on top are made from.
+    /// Data from which errors of layers on top are computed.
     pub mark: Mark,
 }
 

@@ -84,8 +84,9 @@ pub struct Segments {
 impl Segments {
     /// Lays out the segments of a model of `bins`.
     ///
-    /// Mandatory planes are the plate, the top of a fixed first layer, the ends of height ranges and [`Limits::planes_mm`]. Snap planes are added in their
-    /// order, unless layers could no longer add up to the heights beside them; planners that choose their own pass none.
+    /// Mandatory planes are the plate, the top of a fixed first layer, the ends of height ranges and
+    /// [`Limits::planes_mm`]. Snap planes are added in their order, unless layers could no longer fill the segments on
+    /// either side; planners that choose their own pass none.
     ///
     /// The top moves to the nearest height that layers add up to, the lower one of two equally near. It moves by less
     /// than half the minimum thickness. Snap planes do not affect it.
@@ -111,7 +112,7 @@ impl Segments {
             if plane >= top || place == 0 {
                 continue;
             }
-            // Only the two segments beside the new plane change.
+            // Only the two segments adjacent to the new plane change.
             let above = planes.get(place).copied().unwrap_or(top);
             let beside = layout.segments(&[planes[place - 1], plane], above);
             if beside.iter().all(|segment| segment.can_fill(segment.units)) {

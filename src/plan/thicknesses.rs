@@ -94,8 +94,8 @@ pub const DEFAULT_STEPS: u64 = 10_000_000_000;
 /// 4 bytes for each pair of bin and thickness.
 ///
 /// # Errors
-/// [`Cancelled`]. Otherwise [`PlanError::TooFewThicknesses`] if no set of so many has a plan, [`PlanError::Infeasible`] if no thicknesses have. Other
-/// [`PlanError`]s are for contradictory limits.
+/// [`Cancelled`]. Otherwise [`PlanError::TooFewThicknesses`] if no set of at most `count` thicknesses has a plan,
+/// [`PlanError::Infeasible`] if no thicknesses have. Other [`PlanError`]s are for contradictory limits.
 pub fn at_most(
     errors: &LayerErrors,
     limits: &Limits,
@@ -144,7 +144,7 @@ fn distinct(plan: &Plan) -> Vec<u32> {
     thicknesses
 }
 
-/// Where a set has no plan, as boundaries of bins.
+/// Place at which a set has no plan, as boundaries of bins.
 struct Stuck {
     /// The highest plane that layers reach below `upper`.
     reached: u32,
@@ -180,7 +180,7 @@ fn fewest(
     Ok(Plan::new(bins, segments, boundaries, Vec::new()))
 }
 
-/// The fewest layers of a set up to every plane, and the smallest maximum error of so many.
+/// Fewest layers of a set up to every plane, and the smallest maximum error of plans with that number.
 fn fill(
     errors: &LayerErrors,
     segment: &Segment,

@@ -39,7 +39,7 @@ pub(super) fn quickest(
         let times_us: Vec<u64> = (0..=*segment.thickness.end())
             .map(|units| resin.layer_us(f64::from(units) * unit_mm))
             .collect();
-        // Where all plans are alike, the maximum error below need not be told apart.
+        // If there is a single start, all plans share the error below, which then need not be compared.
         if starts.iter().flatten().count() == 1 {
             for start in starts.iter_mut().flatten() {
                 start[2] = 0;

@@ -23,7 +23,7 @@ pub struct TradeoffPoint {
     pub print_time_s: f64,
 }
 
-/// What a plan must achieve.
+/// Requirement on a plan.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Goal {
     /// At most this number of layers.

@@ -45,7 +45,7 @@ pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Vec<Cone> 
             }
         }
     }
-    // Where rounding hides how a crease goes on, it may turn.
+    // If rounding hides the continuation of a crease, it may turn there.
     for place in order {
         if let Some((facets, [z, _])) = ends.remove(&place) {
             add(facets, [z; 2], 1.0);
@@ -54,7 +54,7 @@ pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Vec<Cone> 
     cones
 }
 
-/// Where a crease ends: the edge, by its vertices in ascending order, that passes through a facet.
+/// End of a crease: the edge, by its vertices in ascending order, that passes through a facet.
 type Place = ([u32; 2], u32);
 
 #[derive(Clone, Copy)]
@@ -65,7 +65,7 @@ struct End {
     z: f64,
 }
 
-/// What two facets have in common.
+/// Intersection of two facets.
 struct Crease {
     ends: [End; 2],
     n_z_squared: f64,
@@ -115,7 +115,7 @@ fn earlier(one: End, other: End) -> End {
     if other.at < one.at { other } else { one }
 }
 
-/// Where the edges of a facet pass through the plane of another, in order along the crease.
+/// Points where the edges of a facet pass through the plane of another, in order along the crease.
 fn ends(mesh: &Mesh, facet: u32, other: u32, normal: DVec3, along: DVec3) -> Option<[End; 2]> {
     let corners = mesh.corners(facet as usize);
     let [origin, ..] = mesh.corners(other as usize);

@@ -8,8 +8,8 @@
 //! > min over z from a to m of √((T(m) − T(z))² + (z − a)²), with T(z) the integral of tan θ up to z,
 //!
 //! and the upper edge likewise. The larger of the two bounds everything that the layer adds to the printed surface: its walls, and the
-//! shelves between it and its neighbours. On an even slope it is t/2 · |`n_z`|, where a layer ends beside a flat it is the distance to
-//! the flat, and it is never more than t/2, the way straight up or down to the middle.
+//! shelves between it and its neighbours. On an even slope it is t/2 · |`n_z`|, for a layer that ends next to a flat it
+//! is the distance to the flat, and it is never more than t/2, the way straight up or down to the middle.
 
 use super::{Reach, STEPS_PER_BIN};
 use crate::grid::Bins;

@@ -18,7 +18,7 @@ struct Share {
     strictness: Strictness,
 }
 
-/// How a model's tolerance compares with that of the plan: its errors are multiplied by `of` / `own`.
+/// Ratio of the plan's tolerance to the model's own: the model's errors are multiplied by `of` / `own`.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Strictness {
     /// The model's own tolerance in steps.
@@ -116,7 +116,7 @@ impl LargestError {
         self.tallest().bins()
     }
 
-    /// Whether errors never shrink as a layer grows at either end: whether all of them are sums.
+    /// Returns true if all errors are sums, and so never shrink as a layer grows at either end.
     pub(super) fn is_monotone(&self) -> bool {
         self.models.iter().all(|model| model.errors.is_monotone())
     }

@@ -23,7 +23,7 @@ use deviation::{DeviationError, DeviationsAbove};
 use largest::{LargestAbove, LargestError};
 use volume::VolumeError;
 
-/// What a profile measures.
+/// Metric of a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -119,7 +119,7 @@ impl Metric {
     }
 }
 
-/// What a profile is made from.
+/// Source of a profile.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -368,7 +368,7 @@ enum ErrorsAbove<'a> {
     Largest(LargestAbove<'a>),
 }
 
-/// Whether a layer is within the tolerance.
+/// Result of measuring a layer against the tolerance.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Reach {
     /// It is, with this error in steps.

@@ -77,7 +77,7 @@ pub fn maxima(steepest: &[f32], cones: &[Cone], counts: impl Fn(usize) -> bool) 
     maxima
 }
 
-/// How a facet slopes at an edge: it rises from the edge, it falls, or its steepest line runs along the edge.
+/// Slope of a facet at an edge: its steepest line runs along the edge, it rises from the edge, or it falls.
 const LEVEL: u8 = 0;
 const RISES: u8 = 1;
 const FALLS: u8 = 2;
@@ -104,8 +104,8 @@ fn slope_of(slopes: &[u8], facet: usize, edge: usize) -> u8 {
     slopes[facet] >> (2 * edge) & 3
 }
 
-/// Whether the facet across an edge of `facet` has this slope at it as well. A sliver without area only joins facets: its longest edge
-/// lies on one side of it, the other two on the other.
+/// Returns true if the facet across an edge of `facet` also has this slope there. A sliver without area only joins
+/// facets: its longest edge lies on one side of it, the other two on the other.
 fn slopes_across(mesh: &Mesh, slopes: &[u8], facet: usize, other: usize, slope: u8) -> bool {
     // The edges of `from` behind which `to` is.
     let edges_to = |from: usize, to: usize| {

@@ -115,7 +115,8 @@ impl Shapes {
         !self.sampled.areas_mm2.is_empty()
     }
 
-    /// Whether the shape has exactly these weights of facets for this metric. `None` asks whether it has no weights.
+    /// Returns true if the shape has exactly these weights of facets for this metric; with `None`, if it has no
+    /// weights.
     pub fn is_weighed(&self, metric: Metric, weights: Option<&[f32]>) -> bool {
         match (&self.weighing, weights) {
             (None, None) => true,

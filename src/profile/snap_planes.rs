@@ -10,7 +10,7 @@ use crate::order::{ascending, sort_by_number};
 /// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
 
-/// The surface of a model, as far as it decides on planes.
+/// The features of a model's surface that decide on snap planes.
 #[derive(Debug, Clone, Copy)]
 pub struct Surface<'a> {
     /// Its horizontal facets.

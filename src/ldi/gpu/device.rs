@@ -24,7 +24,8 @@ pub struct Gpu {
 
 /// The faster method of those that a device can do.
 async fn faster_method(device: &wgpu::Device) -> Method {
-    // wgpu does not tell how many storage buffers a stage may have; so ask for what filling needs.
+    // wgpu does not report the number of storage buffers that a stage may have, so this asks for a layout with those
+    // that filling needs.
     let scope = device.push_error_scope(wgpu::ErrorFilter::Validation);
     let entry = |binding, visibility, read_only| wgpu::BindGroupLayoutEntry {
         binding,

@@ -36,7 +36,7 @@ pub(super) struct Layers<'a> {
     corners: wgpu::Buffer,
     pub textures: [wgpu::Texture; 2],
     pub views: [wgpu::TextureView; 2],
-    /// What the passes see that write the one layer or the other.
+    /// Bind groups of the passes that write to one layer or the other.
     seen: [wgpu::BindGroup; 2],
 }
 

@@ -35,7 +35,7 @@ pub enum Adapters {
     Hardware,
 }
 
-/// How the facets that each ray hits are found. Both methods find the same.
+/// Method by which the facets that each ray hits are found. Both find the same ones.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Method {
     /// Two passes whatever the depth: count, then fill. Needs storage buffers in the vertex and fragment stages.
@@ -67,8 +67,9 @@ const MANY_FACETS: usize = 1_000_000;
 
 /// Returns true if a GPU can be faster than the CPU backend at this size: with many facets, and at least four for each ray.
 ///
-/// What a GPU finds is read back, and the CPU computes heights and sorts. Where rays outnumber facets, that alone takes longer than
-/// all that the CPU backend does (docs/ldi.md, "When a GPU is used"; `cargo xtask bench gpu` checks it).
+/// The result is read back from the GPU, and the CPU computes heights and sorts. If rays outnumber facets, that alone
+/// takes longer than all that the CPU backend does (docs/ldi.md, "When a GPU is used"; `cargo xtask bench gpu` checks
+/// it).
 pub fn can_be_faster(facets: usize, rays: usize) -> bool {
     facets >= MANY_FACETS && facets / 4 >= rays
 }

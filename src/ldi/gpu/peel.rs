@@ -18,7 +18,8 @@ use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
 use crate::order::ascending;
 
-/// Rays of so many facets are left to the CPU, which is faster at a few of them than a pass for every two facets.
+/// Number of facets from which a ray is left to the CPU. For the few rays as deep, that is faster than a pass for every
+/// two facets.
 const DEEP: u32 = 256;
 
 /// The most rays along a side of a tile, each of which takes 24 bytes on the GPU: 101 MB in all.

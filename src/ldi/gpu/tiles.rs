@@ -40,7 +40,7 @@ pub struct Region {
 /// `facets[offsets[i]..offsets[i + 1]]`, in any order.
 #[derive(Debug)]
 pub struct Meetings {
-    /// Where each ray begins, and where the last one ends.
+    /// Start of each ray's facets, and the end of the last ray's.
     pub offsets: Vec<u32>,
     /// The facets of all rays.
     pub facets: Vec<u32>,
