@@ -61,7 +61,7 @@ impl FilamentSlicer {
         }
     }
 
-    /// What the programs call the thickness of the first layer, with the way to it.
+    /// The programs' name for the thickness of the first layer, with the path to the setting.
     pub fn first_layer_setting(self) -> &'static str {
         match self {
             Self::Prusa => "Print Settings > Layers and perimeters > First layer height",
@@ -119,7 +119,7 @@ pub struct FilamentReport {
     pub nozzle_mm: f64,
     /// Thickness of the first layer in millimetres, to be set in the slicer.
     pub first_layer_mm: f64,
-    /// What the programs call it in English, with the way to it; for sentences.
+    /// The programs' English name for it, with the path to the setting; for sentences.
     #[serde(skip)]
     pub setting: &'static str,
     /// True if it is known that they print these layers as they are.
@@ -140,7 +140,7 @@ impl FilamentReport {
 }
 
 impl std::fmt::Display for FilamentReport {
-    /// What to do in the slicer.
+    /// The instruction for the slicer.
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         write!(
             f,

@@ -286,7 +286,7 @@ impl Grid {
         [offset.x as u32, offset.y as u32]
     }
 
-    /// `part`, a result of [`Self::around_model`], with these columns and rows more on each side, as far as the grid has them.
+    /// `part`, a result of [`Self::around_model`], extended by these columns and rows on each side, within the grid.
     #[must_use]
     pub fn extended(&self, part: &Self, [columns, rows]: [u32; 2]) -> Self {
         let [column, row] = self.offset_of(part);

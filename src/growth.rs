@@ -1,4 +1,4 @@
-//! How far a print grows beyond its masks: light spreads sideways and cures below the layer that it is meant for.
+//! Growth of a print beyond its masks: light spreads sideways and cures resin below the intended layer.
 
 use serde::{Deserialize, Serialize};
 
@@ -67,7 +67,7 @@ impl Growth {
         self.bottom_xy_mm.unwrap_or(self.xy_mm)
     }
 
-    /// Growth in x and y of each of so many layers, in millimetres.
+    /// Growth in x and y of each layer, in millimetres.
     pub fn of_layers_mm(&self, layers: usize, bottom_layers: usize) -> Vec<f64> {
         let bottom_mm = self.bottom_mm();
         let steps = self.faded_layers + 1;

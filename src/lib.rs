@@ -47,7 +47,7 @@
 //! - Row 0 of a mask is at the largest y; a mask is sampled at the middle of its layer.
 //! - Whatever decides uses integers, basic IEEE arithmetic and square roots: a plan is the same on every machine.
 
-// docs.rs writes beside an item which feature it needs.
+// docs.rs shows the feature that an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
 mod crc;

@@ -14,7 +14,7 @@ pub fn with_nearest(message: &str) -> Cow<'_, str> {
 fn suggested(message: &str, opening: &str) -> Option<String> {
     let start = message.find(opening)? + opening.len();
     let (name, rest) = message[start..].split_once("`, expected ")?;
-    // Where the name stands follows the list.
+    // The position of the name follows the list.
     let end = rest.rfind('`')? + 1;
     let known = rest[..end].split('`').skip(1).step_by(2);
     let nearest = nearest(name, &known)?;

@@ -19,13 +19,13 @@ pub(crate) fn map<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync 
     items.into_iter().map(work).collect()
 }
 
-/// How many items are worked on at a time.
+/// Number of items processed at a time.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn threads() -> usize {
     rayon::current_num_threads()
 }
 
-/// How many items are worked on at a time.
+/// Number of items processed at a time.
 #[cfg(target_arch = "wasm32")]
 pub(crate) fn threads() -> usize {
     1
@@ -34,8 +34,8 @@ pub(crate) fn threads() -> usize {
 /// Makes glibc's allocator keep freed memory for the next item of work; with other allocators it does nothing.
 ///
 /// glibc returns a large block to the system when it is freed, and the next allocation starts from zeroed pages again.
-/// What counts as large grows with the largest block freed so far, up to 32 MiB; so allocating and freeing one large
-/// block is enough. Where each item uses a few megabytes for a millisecond, this halves the time.
+/// The threshold grows with the largest block freed so far, up to 32 MiB; so allocating and freeing one large block is
+/// enough. If each item uses a few megabytes for a millisecond, this halves the time.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn keep_memory() {
     drop(std::hint::black_box(Vec::<u8>::with_capacity(31 << 20)));

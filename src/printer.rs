@@ -60,18 +60,18 @@ pub struct Printer {
     /// Extensions of the files that it reads, the most common first.
     #[serde(default)]
     pub reads: Vec<String>,
-    /// True if it prints layers of several thicknesses.
+    /// Ability to print layers of several thicknesses.
     #[serde(default)]
     pub variable_layers: VariableLayers,
-    /// Where that is known from.
+    /// Source of that statement.
     #[serde(default)]
     pub variable_layers_source: String,
-    /// How far prints grow beyond their masks, whatever the resin.
+    /// Growth of prints beyond their masks, whatever the resin.
     #[serde(default)]
     pub growth: Growth,
 }
 
-/// Whether a printer prints layers of several thicknesses.
+/// Ability of a printer to print layers of several thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

@@ -102,7 +102,7 @@ impl Quantity {
             | Self::FirstLayer
             | Self::LayerMin
             | Self::LayerMax => [1e-6, 1e6],
-            // An upright prism has no error, so the smallest tolerance that allows so many layers may be 0.
+            // An upright prism has no error, so the smallest tolerance for a number of layers may be 0.
             Self::Tolerance => [0.0, 1e9],
             Self::ResinLayer => [1e-4, 10.0],
             Self::Penetration => [1e-4, 100.0],

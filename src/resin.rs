@@ -1,4 +1,4 @@
-//! How long a layer takes: an exposure that depends on its thickness (Jacobs' working curve), and a fixed time for the
+//! Print time of a layer: an exposure that depends on its thickness (Jacobs' working curve), and a fixed time for the
 //! moves between layers.
 
 use serde::{Deserialize, Serialize};
@@ -40,7 +40,7 @@ pub struct Resin {
     pub return_mm_min: f64,
     /// Density of the cured resin, in grams per millilitre.
     pub density_g_ml: f64,
-    /// How far a print grows beyond its masks.
+    /// Growth of a print beyond its masks.
     pub growth: Growth,
 }
 

@@ -8,7 +8,7 @@ use crate::model::read::PartKind;
 use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
 
-/// How long a model is if its file is in a unit.
+/// Size of a model if its file is in a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -34,7 +34,7 @@ pub enum Warning {
     },
     /// The whole mesh was inside out, so all facets were turned over.
     InsideOut,
-    /// Facets faced the other way than those beside them, or than their body, and were turned over.
+    /// Facets faced another way than their neighbours or their body, and were turned over.
     TurnedFacets {
         /// Number of such facets.
         facets: usize,
@@ -146,7 +146,7 @@ pub enum Warning {
     ToleranceExceeded {
         /// Name of the planner.
         planner: String,
-        /// What the tolerance and the error measure.
+        /// Metric of the tolerance and the error.
         metric: Metric,
         /// The tolerance, in the metric's unit.
         tolerance: f64,
@@ -155,7 +155,7 @@ pub enum Warning {
     },
     /// Layers keep the tolerance on the sampled surface, but exceed it on the mesh.
     ToleranceExceededOnMesh {
-        /// What the tolerance and the error measure.
+        /// Metric of the tolerance and the error.
         metric: Metric,
         /// The tolerance, in the metric's unit.
         tolerance: f64,
@@ -166,7 +166,7 @@ pub enum Warning {
     SampledSections,
     /// Layers do not add up to the model's height, so the top was moved.
     TopMoved {
-        /// Where the print ends, in millimetres.
+        /// Top of the print, in millimetres.
         top_mm: f64,
         /// Height of the model in millimetres.
         height_mm: f64,
@@ -178,7 +178,8 @@ pub enum Warning {
         /// Bottom of the lowest one, in millimetres above the plate.
         from_mm: f64,
     },
-    /// Compensation erases parts of masks, which are no thicker than what it takes away: nothing near them stays lit.
+    /// Compensation erases parts of masks that are no thicker than the compensation and have no remaining lit area
+    /// nearby.
     ErasedParts {
         /// Number of layers with such parts.
         layers: usize,
@@ -213,9 +214,9 @@ pub enum Warning {
     },
     /// The GPU failed; the CPU was used instead.
     GpuFailed {
-        /// What went wrong.
+        /// The fault.
         fault: GpuFault,
-        /// What the system said, untranslated; absent where it said nothing.
+        /// The system's message, untranslated; absent if there is none.
         system: Option<String>,
     },
 }

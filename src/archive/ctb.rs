@@ -206,7 +206,7 @@ fn table(job: &PrintJob<'_>, layers: &[Vec<u8>], table_at: usize) -> Vec<Vec<u8>
     rows.collect()
 }
 
-/// What follows a layer's row where it is repeated before the layer's data.
+/// Writes the fields that follow a layer's row where it is repeated before the layer's data.
 fn layer_settings(fields: &mut Fields<'_>, job: &PrintJob<'_>, data_bytes: usize) {
     let resin = job.resin;
     fields.u32(LAYER_BYTES + data_bytes as u32);

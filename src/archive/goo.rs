@@ -70,7 +70,7 @@ impl Encoder for Goo {
     }
 }
 
-/// How the plate moves between layers.
+/// Moves of the plate between layers.
 struct Moves {
     wait_s: f64,
     lift_mm: f64,

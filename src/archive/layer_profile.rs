@@ -25,7 +25,7 @@ pub struct LayeredModel<'a> {
     pub mesh: &'a Mesh,
     /// Heights of layer boundaries, from 0 upward: one more than there are layers.
     pub z_mm: &'a [f64],
-    /// Thickness of the first layer as the slicer is told to print it.
+    /// Thickness of the first layer as set in the slicer.
     pub first_layer_mm: f64,
 }
 
@@ -47,7 +47,7 @@ const MODEL_HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
 <model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
 "#;
 
-/// Where a slicer looks for the profile.
+/// Name under which a slicer looks for the profile.
 fn profile_name(slicer: FilamentSlicer) -> &'static str {
     match slicer {
         FilamentSlicer::Prusa => "Metadata/Slic3r_PE_layer_heights_profile.txt",
@@ -55,7 +55,8 @@ fn profile_name(slicer: FilamentSlicer) -> &'static str {
     }
 }
 
-/// What the file says it was made by. Bambu Studio and `OrcaSlicer` take no more than the mesh from files of others.
+/// Application that the file names as its author. Bambu Studio and `OrcaSlicer` take only the mesh from files of other
+/// programs.
 fn application(slicer: FilamentSlicer) -> &'static str {
     match slicer {
         FilamentSlicer::Prusa => "Cusp",
@@ -146,7 +147,7 @@ impl LayeredModel<'_> {
         let mut profile = String::with_capacity(40 * layers);
         for (layer, pair) in self.z_mm.windows(2).enumerate() {
             let [bottom, top] = [pair[0], pair[1]].map(millionths);
-            // As the difference of what is written, so that nothing adds up.
+            // The difference of the rounded heights, so that rounding does not accumulate.
             let thickness = top - bottom;
             let is_last = layer + 1 == layers;
             // A reader refuses a profile of two points, which a single layer gives.

@@ -49,7 +49,7 @@ fn encoder(format: Format) -> Option<&'static dyn Encoder> {
     })
 }
 
-/// What differs between formats. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
+/// A print format. A zip of masks implements [`zip::Container`] instead, and [`zip::Zip`] encodes it.
 trait Encoder: Sync {
     /// Encodes a layer of these.
     fn layer(
@@ -123,7 +123,7 @@ pub enum ArchiveError {
         /// The format asked for.
         format: Format,
     },
-    /// The first layer is not as thick as the slicer is told to print it.
+    /// The first layer is not as thick as set in the slicer.
     #[error(
         "the first layer of this plan is {layer_mm} mm thick, not {first_layer_mm} mm as set; the model is lower than that, \
          so choose a thinner first layer"
@@ -139,12 +139,12 @@ pub enum ArchiveError {
     #[error("the print file could not be written: {system}")]
     #[serde(rename = "archive-write")]
     Write {
-        /// What the system said, untranslated.
+        /// The system's message, untranslated.
         system: String,
     },
 }
 
-/// What to choose in place of layers of several thicknesses.
+/// Alternative to layers of several thicknesses, for a sentence.
 fn in_place(best: Option<&UniformLayers>) -> String {
     best.map_or_else(
         || "the uniform planner".to_owned(),
@@ -200,7 +200,7 @@ impl Screen {
         })
     }
 
-    /// What its masks are drawn on.
+    /// The canvas of its masks.
     pub(crate) fn canvas(&self) -> Canvas {
         Canvas {
             pixels: self.pixels,
@@ -214,7 +214,7 @@ impl Screen {
     }
 }
 
-/// What masks are drawn on.
+/// Canvas of masks.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Canvas {
     /// Columns and rows.
@@ -240,7 +240,7 @@ pub struct Layer {
     pub exposure_s: f64,
 }
 
-/// Where the masks of a print file come from.
+/// Source of the masks of a print file.
 #[derive(Clone, Copy)]
 pub enum MaskSource<'a> {
     /// Their runs are read, and encoded here.
@@ -262,8 +262,8 @@ pub struct PrintJob<'a> {
     pub height_mm: f64,
     /// The resin.
     pub resin: &'a Resin,
-    /// Number of layers above the bottom layers over which the exposure falls to the usual one. It is stated beside the
-    /// exposures of the layers, which follow [`Schedule`] if no layer has values of its own.
+    /// Number of layers above the bottom layers over which the exposure falls to the usual one. It is stated in
+    /// addition to the exposures of the layers, which follow [`Schedule`] if no layer has values of its own.
     pub transition_layers: usize,
     /// Volume of resin in the model, in millilitres.
     pub resin_ml: f64,
@@ -296,7 +296,7 @@ impl PrintJob<'_> {
             })
     }
 
-    /// The thickness for formats that name a single one beside those of the layers: the middle layer's.
+    /// The middle layer's thickness, for formats that state a single one in addition to those of the layers.
     fn usual_mm(&self) -> f64 {
         let middle = self.layers.get(self.layers.len() / 2);
         middle.map_or(self.resin.layer_mm, |layer| layer.thickness_mm)
@@ -369,7 +369,7 @@ pub const GROUP: usize = 32;
 #[derive(Debug, PartialEq)]
 struct EncodedLayer {
     data: Vec<u8>,
-    /// Checksum and length of what `data` inflates to, if it is deflated.
+    /// Checksum and length of `data` once inflated, if it is deflated.
     inflated: Option<(u32, u64)>,
     lit_pixels: u64,
     /// Its lit areas, for formats that state them all.

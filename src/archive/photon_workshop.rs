@@ -67,7 +67,7 @@ impl Encoder for PhotonWorkshop {
     }
 }
 
-/// Where the tables of a version begin in the file.
+/// Offsets of a version's tables in the file.
 struct Tables {
     version: u32,
     header: u32,
@@ -261,7 +261,7 @@ fn write_model(fields: &mut Fields<'_>, job: &PrintJob<'_>, bounds: Option<Bound
     fields.zeros(8);
 }
 
-/// Where exposures differ within a layer, a layer has several images; here each has one.
+/// Writes the table of sublayers. A layer with several exposures has several images; here each has one.
 fn write_sublayers(fields: &mut Fields<'_>, starts: &[u32], layers: &[EncodedLayer]) {
     let count = layers.len() as u32;
     fields.text("SUBIMGS", 12);
@@ -342,7 +342,7 @@ fn write_extra(fields: &mut Fields<'_>, job: &PrintJob<'_>) {
     let resin = job.resin;
     let (lift_mm_s, return_mm_s) = (resin.lift_mm_min / 60.0, resin.return_mm_min / 60.0);
     fields.text("EXTRA", 12);
-    // Shorter than what follows, but printers expect this number.
+    // Less than the length of the table, but printers expect this number.
     fields.u32(24);
     for _bottom_and_others in 0..2 {
         fields.u32(2);

@@ -3,7 +3,7 @@
 use super::runs::RunWriter;
 use crate::mask::Run;
 
-/// How pixels are stored.
+/// Bit depth of stored pixels.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Depth {
     /// One bit per pixel.

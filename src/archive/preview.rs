@@ -25,7 +25,7 @@ const LONGEST: u32 = 1024;
 /// A model in the picture, and where it stands.
 #[derive(Debug, Clone, Copy)]
 pub struct Standing<'a> {
-    /// What the rays were sampled from.
+    /// The mesh from which the rays were sampled.
     pub mesh: &'a Mesh,
     /// Its rays.
     pub image: RayImage<'a>,
@@ -144,7 +144,7 @@ impl Look {
         }
     }
 
-    /// A picture as it is: the brightness of each pixel, row by row from the top, and the sides of a pixel in any unit.
+    /// A picture from the brightness of each pixel, row by row from the top, and the sides of a pixel in any unit.
     pub(crate) fn from_picture(
         [width, height]: [u32; 2],
         side: [f64; 2],

@@ -1,8 +1,8 @@
 //! Writes zlib streams of data that consists of long runs. Time is proportional to the number of runs; a run takes one byte
 //! of the stream per 258 bytes of data.
 //!
-//! Masks of today's screens have tens of millions of pixels, nearly all equal to their neighbours. Libraries look at every
-//! byte; this writer is told about runs.
+//! Masks of today's screens have tens of millions of pixels, nearly all equal to their neighbours. Libraries look at
+//! every byte; this writer takes runs.
 //!
 //! Its prefix code is constant, and every token takes whole bytes. So whatever repeats in a mask also repeats in the bytes
 //! of its stream, where a second pass of deflate, as zips do, finds it.

@@ -35,7 +35,7 @@ fn push<const N: usize>(numbers: &mut Vec<u64>, some: Option<[u64; N]>) {
 /// The layers of [`to_bytes`].
 ///
 /// # Errors
-/// [`ArchiveError::Write`] if these are not so many layers: the worker that encoded them was of another build.
+/// [`ArchiveError::Write`] if the bytes do not hold `count` layers: the worker that encoded them was of another build.
 pub fn from_bytes(bytes: &[u8], count: usize) -> Result<Vec<EncodedLayer>, ArchiveError> {
     let mut rest = Rest(bytes);
     let layers: Result<Vec<_>, Cut> = (0..count).map(|_| rest.layer()).collect();
@@ -46,7 +46,7 @@ pub fn from_bytes(bytes: &[u8], count: usize) -> Result<Vec<EncodedLayer>, Archi
 /// There are fewer bytes than the numbers before say.
 struct Cut;
 
-/// What is left to read.
+/// The bytes yet to be read.
 struct Rest<'a>(&'a [u8]);
 
 impl Rest<'_> {

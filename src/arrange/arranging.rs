@@ -1,11 +1,11 @@
-//! How copies are to be arranged.
+//! Options for arranging copies.
 
 use serde::{Deserialize, Serialize};
 
 use super::ArrangeError;
 use crate::model::TURNS;
 
-/// How to arrange copies.
+/// Options for arranging copies.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]

@@ -1,4 +1,4 @@
-//! Whether copies stay on their plate and apart from each other.
+//! Checks that copies stay on their plate and apart from each other.
 
 use super::outline::Outline;
 use super::sheet::bits_at;
@@ -52,10 +52,10 @@ impl Standing<'_> {
     }
 }
 
-/// What is wrong with the copies on one plate: those that extend beyond it, then those that overlap. Each copy that overlaps
+/// Problems of the copies on one plate: those that extend beyond it, then those that overlap. Each copy that overlaps
 /// another is named at least once, and there are no more overlaps than copies.
 ///
-/// Cost: quadratic in copies as far as their boxes overlap, and in the pixels of those that do.
+/// Cost: the pairs of copies that share columns of pixels, and the pixels of those whose boxes overlap.
 pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<ArrangeError> {
     let plate_number = plate + 1;
     let outside = copies.iter().filter(|copy| !copy.is_on(screen));

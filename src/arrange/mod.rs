@@ -1,4 +1,4 @@
-//! Where copies of models stand on plates: the fewest plates, then the lowest.
+//! Placement of copies on plates: the fewest plates, then the lowest.
 //!
 //! A plate is divided into cells of whole pixels. A model covers the cells of its shadow, and keeps a distance around it free.
 //! Copies are placed one after the other, each at the first place that is free: far back and to the left. Places are whole cells
@@ -37,7 +37,7 @@ pub struct Screen {
 }
 
 impl Screen {
-    /// The screen of so many columns and rows, with pixels of these sides in x and y.
+    /// The screen with these numbers of columns and rows, and pixels of these sides in x and y.
     pub fn new(pixels: [u32; 2], pitch_mm: [f64; 2]) -> Self {
         let cell = pitch_mm.map(|pitch_mm| (CELL_MM / pitch_mm + 0.5).max(1.0) as u32);
         Self {
@@ -127,7 +127,7 @@ impl Screen {
 
 /// A model to be arranged.
 pub struct Item<'a, E> {
-    /// How many copies.
+    /// Number of copies.
     pub copies: usize,
     /// Height of the model in millimetres.
     pub height_mm: f64,
@@ -135,7 +135,7 @@ pub struct Item<'a, E> {
     pub outline: &'a (dyn Fn(u32) -> Result<Outline, E> + Sync),
 }
 
-/// Where a copy stands.
+/// Place of a copy.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Place {
     /// The model, by its index.

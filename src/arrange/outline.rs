@@ -5,8 +5,8 @@ use glam::{DVec2, Vec3};
 use super::Screen;
 use crate::model::Mesh;
 
-/// How far a surface must reach into a pixel to light it, at least. The ray nearest to the edge of a pixel, of four across it, is 1/8
-/// pixel away, and sampling moves corners by less than 1/256 pixel.
+/// Least depth, in pixels, by which a surface must reach into a pixel to light it. The ray nearest to the edge of a
+/// pixel, of four across it, is 1/8 pixel away, and sampling moves corners by less than 1/256 pixel.
 const INSET: f64 = 1.0 / 8.0 - 1.0 / 256.0;
 
 /// A set of cells, row by row in words of 64.
@@ -62,7 +62,7 @@ impl Cells {
         let mut grown = Self::new(self.columns + 2 * sideways, self.rows + 2 * rows);
         for row in 0..self.rows {
             for column in (0..self.columns).filter(|&column| self.has(column, row)) {
-                // A cell amid others adds nothing of its own.
+                // A cell surrounded by others adds only itself.
                 let is_inner = column > 0
                     && row > 0
                     && column + 1 < self.columns

@@ -19,7 +19,7 @@ pub fn shadow_mm2(mesh: &Mesh) -> f64 {
     let mut spans: Vec<Vec<[f64; 2]>> = vec![Vec::new(); LINES];
     for facet in 0..mesh.facets.len() {
         let corners = mesh.corners(facet).map(DVec3::truncate);
-        // The mesh is closed: what faces downward is in the shadow of what faces upward.
+        // The mesh is closed: facets that face downward are in the shadow of those that face upward.
         if (corners[1] - corners[0]).perp_dot(corners[2] - corners[0]) <= 0.0 {
             continue;
         }

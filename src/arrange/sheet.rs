@@ -18,7 +18,8 @@ pub(super) struct Copy {
 pub(super) struct Sheet {
     taken: Cells,
     pub copies: Vec<Copy>,
-    /// Where the search goes on for each item and shape: nothing before it is free, as cells are only ever taken.
+    /// Place from which the search continues for each item and shape: no place before it is free, as cells are only
+    /// ever taken.
     next: FxHashMap<(usize, usize), Option<[i64; 2]>>,
 }
 

@@ -1,7 +1,8 @@
 //! Contours in the Common Layer Interface (CLI), version 2.0, as text.
 //!
-//! A layer is told by its top, and its thickness by the layer below; a layer of no contours at the plate gives the first one its own. Rings
-//! are closed by repeating their first point. Direction 1 is an outer ring, counter-clockwise; 0 is a hole, clockwise.
+//! The file states the top of each layer, and its thickness follows from the layer below; an empty layer at the plate
+//! gives the first one its own. Rings are closed by repeating their first point. Direction 1 is an outer ring,
+//! counter-clockwise; 0 is a hole, clockwise.
 
 use std::io::{self, Write};
 

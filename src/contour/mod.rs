@@ -79,14 +79,14 @@ impl Polygon {
     }
 }
 
-/// Where a layer is.
+/// Heights of a layer.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct LayerHeights {
     /// Its bottom.
     pub bottom_mm: f64,
     /// Its top.
     pub top_mm: f64,
-    /// Where the model is cut: its middle.
+    /// Height of the section: the middle of the layer.
     pub section_mm: f64,
 }
 
@@ -108,9 +108,9 @@ impl LayerHeights {
 /// The section of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Contours {
-    /// Where the layer is.
+    /// Heights of the layer.
     pub heights: LayerHeights,
-    /// What is printed. No two polygons have more than single points in common.
+    /// The printed area. No two polygons have more than single points in common.
     pub polygons: Vec<Polygon>,
 }
 
@@ -151,10 +151,10 @@ fn shown(length_mm: f64) -> f64 {
     (length_mm * 1e9).round() / 1e9
 }
 
-/// What a file of contours says before its layers.
+/// Header of a file of contours.
 #[derive(Debug, Clone)]
 pub struct Heading<'a> {
-    /// What the file is about: the name of the model, for example.
+    /// Title of the file: the name of the model, for example.
     pub title: &'a str,
     /// The lattice of all points.
     pub lattice: Lattice,

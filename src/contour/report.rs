@@ -1,4 +1,4 @@
-//! What contours amount to.
+//! Statistics of contours.
 
 use serde::Serialize;
 
@@ -34,7 +34,7 @@ pub struct SectionReport {
     pub bottom_mm: f64,
     /// Top of the layer.
     pub top_mm: f64,
-    /// Where the model is cut: the middle of the layer.
+    /// Height of the section: the middle of the layer.
     pub section_mm: f64,
     /// Number of polygons.
     pub polygons: usize,

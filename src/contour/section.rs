@@ -2,8 +2,9 @@
 //!
 //! A vertex at the height of the section counts as below it, so the section is that just above the plane. Masks have the same rule: a point
 //! is lit from an entry, included, to an exit, excluded. Every facet then has corners on both sides or on one, and each edge that crosses
-//! the plane gives one point, which is the same for the facets beside it. As every edge is used equally often in both directions
-//! (`model/holes.rs`), as many segments end at a point as begin there: following them closes every loop.
+//! the plane gives one point, which is the same for both facets at the edge. As every edge is used equally often in
+//! both directions (`model/holes.rs`), as many segments end at a point as begin there: following them closes every
+//! loop.
 
 use glam::{DVec2, DVec3};
 

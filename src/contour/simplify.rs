@@ -262,7 +262,7 @@ enum Side {
     Out,
 }
 
-/// Where a point is with regard to a ring.
+/// Side of a ring on which a point lies.
 fn side(ring: &[Point], point: Point) -> Side {
     let mut is_in = false;
     for (place, &a) in ring.iter().enumerate() {

@@ -11,8 +11,8 @@ use super::{Polygon, Ring};
 
 type Shapes = Vec<Vec<Vec<IntPoint<i32>>>>;
 
-/// What is printed of a section, by the rule of [`Winding::is_inside`](crate::model::Winding::is_inside): inside the model and no void, or
-/// inside a support.
+/// The printed part of a section, by the rule of [`Winding::is_inside`](crate::model::Winding::is_inside): inside the
+/// model and no void, or inside a support.
 pub(super) fn union(loops: &Loops) -> Vec<Polygon> {
     let model = contours(&loops.model);
     let voids = contours(&loops.voids);

@@ -1,11 +1,11 @@
-//! Where printing begins anew along a direction: islands and cups, found on the surface alone.
+//! Islands and cups along a direction, found on the surface alone.
 //!
 //! Going up, a part of the surface begins at each of its minima, and ends where it meets one that began lower. If it faces down, the
 //! solid begins there: nothing is below it, and it is an island. If it faces up, a hollow begins there. It is a cup up to where it
 //! spills into one that began lower. Where the first layer has holes, the plate is the bottom of cups.
 //!
-//! That is what the checks find on masks (`docs/printability.md`), as far as the surface shows it: in time linear in facets, and good
-//! enough to choose between directions.
+//! The checks find the same on masks (`docs/printability.md`). This is an estimate from the surface, in time linear in
+//! facets, and good enough to choose between directions.
 
 use glam::DVec3;
 
@@ -17,7 +17,7 @@ use crate::order::ascending;
 /// Cups count from this area on, in mm², as in the checks.
 const CUP_MM2: f64 = 1.0;
 
-/// What has less than this area in its first mask is smaller than any pixel, in mm².
+/// Least area in the first mask, in mm². Smaller features are smaller than any pixel.
 const LEAST_MM2: f64 = 1e-6;
 
 /// The height at which a cup spills is found by steps, each twice as high as the one before; that in which it spills is halved this
@@ -79,14 +79,14 @@ impl Along<'_> {
     }
 }
 
-/// How far a basin has filled.
+/// State of a basin as it fills.
 #[derive(Default)]
 struct Flood {
     /// The vertices below its level.
     wet: Vec<u32>,
-    /// How many of these have been looked around from.
+    /// Number of these whose neighbours have been visited.
     done: usize,
-    /// Vertices beside it that are above its level.
+    /// Adjacent vertices that are above its level.
     shore: Vec<u32>,
 }
 
@@ -138,7 +138,7 @@ impl Basins {
                 ..Flood::default()
             };
             let is_alone = self.fill(&mut flood, level_mm, along, &mut marks);
-            // What begins below the first mask stands on the plate.
+            // A basin that begins below the first mask stands on the plate.
             if !is_alone || layer == 0 {
                 continue;
             }
@@ -156,7 +156,7 @@ impl Basins {
         found
     }
 
-    /// The vertices that are lower than all beside them, from the lowest up.
+    /// The vertices that are lower than all their neighbours, from the lowest up.
     fn minima(&self, along: &Along<'_>) -> Vec<u32> {
         let is_lowest = |&vertex: &u32| {
             let mut facets = self.around.of(vertex as usize).iter();
@@ -208,7 +208,7 @@ impl Basins {
         } else {
             0.0
         };
-        // What began higher within it is a cup of its own.
+        // A basin that began higher within it is a cup of its own.
         for &vertex in &flood.wet[first..] {
             marks[vertex as usize] = DRY;
         }
@@ -254,7 +254,7 @@ impl Basins {
         true
     }
 
-    /// The area at a level between the walls of what has been filled: negative if it is solid.
+    /// The area at a level between the walls of the filled part: negative if it is solid.
     fn area_mm2(&self, wet: &[u32], level_mm: f32, along: &Along<'_>) -> f64 {
         let mut twofold_mm2 = 0.0;
         for &vertex in wet {
@@ -290,7 +290,7 @@ impl Basins {
             return 0.0;
         };
         let is_above = |vertex: u32| along.heights_mm[vertex as usize] > level_mm;
-        // Where an edge crosses the level. Both facets beside it compute the same.
+        // Point where an edge crosses the level. Both facets at the edge compute the same.
         let crossing = |one: u32, other: u32| {
             let (low, high) = if is_above(one) {
                 (other, one)

@@ -1,4 +1,4 @@
-//! How far a set of points extends along any axis, without a look at every point.
+//! Extent of a set of points along any axis, without visiting every point.
 
 use std::ops::Range;
 
@@ -56,7 +56,7 @@ impl Points {
         let blocks = self.centres_mm[0].len();
         let centres = sums(&self.centres_mm, axis, 0..blocks);
         let reaches = sums(&self.halves_mm, axis.abs(), 0..blocks);
-        // What each block is within.
+        // Interval along the axis that contains each block.
         let boxes: Vec<[f64; 2]> = centres
             .zip(reaches.map(|reach| reach + self.slack_mm))
             .map(|(centre, reach)| [centre - reach, centre + reach])

@@ -1,7 +1,8 @@
-//! The vertices that may be lower than all beside them, along any direction, without a look at every facet.
+//! Vertices that may be lower than all their neighbours, along any direction, without visiting every facet.
 //!
-//! Of two edges that leave a vertex in opposite directions one falls, unless both are nearly level: along most directions they tell that
-//! a vertex of a smooth surface is no minimum. Two more, across them, tell it of nearly all others.
+//! Of two edges that leave a vertex in opposite directions one falls, unless both are nearly level: along most
+//! directions they show that a vertex of a smooth surface is no minimum. Two more edges, across these, show it for
+//! nearly all other vertices.
 
 use glam::{DVec3, Vec3};
 
@@ -64,8 +65,8 @@ impl Minima {
         }
     }
 
-    /// All vertices that are lower than those beside them with `up` up, and some others, in ascending order. The model is of this
-    /// height, and heights of vertices are single precision.
+    /// All vertices that are lower than their neighbours when `up` points up, and some others, in ascending order. The
+    /// model is `height_mm` high, and heights of vertices are single precision.
     pub fn candidates(&self, up: DVec3, height_mm: f32) -> Vec<u32> {
         // More than heights and edges are rounded by.
         let slack_mm = -(height_mm / (1 << 22) as f32 + self.longest_mm / (1 << 20) as f32);

@@ -209,7 +209,7 @@ pub struct Metrics {
     pub contact_mm2: f64,
 }
 
-/// What the terms of energies are relative to: the largest terms of all directions.
+/// Reference values of the terms of energies: the largest terms of all directions.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]

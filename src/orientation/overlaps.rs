@@ -1,4 +1,4 @@
-//! Where bodies overlap: whether a point of one lies within the others.
+//! Overlaps of bodies: tests whether a point of one lies within the others.
 
 use glam::DVec3;
 

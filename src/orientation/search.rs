@@ -41,13 +41,13 @@ pub struct TaskResult {
 pub struct SearchResult {
     /// See [`Search::best`].
     pub best: Vec<Candidate>,
-    /// What energies are relative to.
+    /// Reference values of energies.
     pub scale: Scale,
     /// The rated candidates of the first pass, one per direction.
     pub candidates: Vec<Candidate>,
 }
 
-/// What a task is for.
+/// Purpose of a task.
 #[derive(Debug, Clone)]
 enum Purpose {
     /// Measures the directions with these indices, in the first pass.
@@ -93,7 +93,7 @@ pub struct Search {
     rated: Option<Rated>,
 }
 
-/// What follows from the candidates of the first pass.
+/// Results of rating the candidates of the first pass.
 #[derive(Debug, Clone)]
 struct Rated {
     scale: Scale,

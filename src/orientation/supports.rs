@@ -1,17 +1,17 @@
-//! What supports would take in a direction, without building them (`docs/supports.md`). The constants are those that fit supports of six
-//! scans along 14 directions each: `cargo xtask bench support` compares.
+//! Estimate of the supports that a direction needs, without building them (`docs/supports.md`). The constants are those
+//! that fit supports of six scans along 14 directions each: `cargo xtask bench support` compares.
 
 use std::f64::consts::PI;
 
 use crate::prepare::SupportProfile;
 
-/// How many contacts a surface gets for each square of the load rule's distance.
+/// Contacts on a surface per square of the load rule's distance.
 const PACKING: f64 = 0.95;
 
-/// How many an island gets: around its lowest point the surface is seldom large, and has edges.
+/// Contacts on an island: around its lowest point the surface is seldom large, and has edges.
 const FOR_ISLAND: f64 = 4.0;
 
-/// How much of its height each contact's pillar takes for itself: pillars join on their way down.
+/// Fraction of a contact's height for which it has a pillar of its own: pillars join on their way down.
 const ALONE: f64 = 0.4;
 
 /// An estimate of supports.
@@ -22,7 +22,7 @@ pub(super) struct Estimate<'a> {
     least_n_z: f32,
     /// On surfaces that do not support themselves.
     contacts: f64,
-    /// The same, each with the weight of what it touches.
+    /// The same, each weighted by the surface that it touches.
     weighted: f64,
     /// From the plate to each of them, together.
     heights_mm: f64,
@@ -64,7 +64,7 @@ impl<'a> Estimate<'a> {
     /// The volume in millilitres and the weighted area of contacts in mm², with those of islands.
     pub fn of_islands(&self, islands: usize) -> [f64; 2] {
         let profile = self.profile;
-        // What is lifted hangs from its lowest point.
+        // A lifted model hangs from its lowest point.
         let lowest = if profile.lift_mm > 0.0 { 1.0 } else { 0.0 };
         let more = FOR_ISLAND * islands as f64 + lowest;
         let [height_mm, weight] = if self.contacts > 0.0 {

@@ -71,7 +71,7 @@ pub(crate) struct Surface {
 pub(crate) struct Placement {
     /// A quaternion x, y, z, w.
     pub rotation: [f64; 4],
-    /// What points up from the plate, in the frame of the file.
+    /// The direction that points up from the plate, in the frame of the file.
     up: DVec3,
     /// `n_z` of the unit normal of each facet.
     n_z: Vec<f32>,
@@ -280,7 +280,7 @@ impl Surface {
         sums.resize(facet_bins.bins.count + 1, sum);
         let plate = plan.boundaries[1];
         let bin_mm = facet_bins.bins.size_mm;
-        // Where masks are taken.
+        // Heights at which masks are sampled.
         let middles_mm: Vec<f32> = plan
             .boundaries
             .windows(2)

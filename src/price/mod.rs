@@ -1,4 +1,4 @@
-//! What an order costs by a shop's own prices. `docs/price.md` defines the formula.
+//! The price of an order by a shop's own prices. `docs/price.md` defines the formula.
 
 mod currency;
 mod prices;
@@ -21,7 +21,7 @@ pub struct PriceItem {
     pub print_time_s: f64,
 }
 
-/// What a part of a price is for.
+/// Item of a price.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -37,9 +37,9 @@ pub enum PriceKind {
     Supports,
     /// The finish.
     Finish,
-    /// What is taken off for many copies: negative.
+    /// The discount for many copies: negative.
     Discount,
-    /// What is missing to the least price of an order.
+    /// The supplement up to the least price of an order.
     Minimum,
 }
 
@@ -74,13 +74,13 @@ impl PriceKind {
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PriceLine {
-    /// What it is for.
+    /// Its item.
     pub kind: PriceKind,
     /// Whole minor units of the currency.
     pub amount: i64,
 }
 
-/// What an order costs.
+/// The price of an order.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]

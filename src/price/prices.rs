@@ -12,13 +12,13 @@ use super::MOST;
 pub struct Prices {
     /// The currency: three capitals of ISO 4217.
     pub currency: String,
-    /// What an order costs, however much is printed.
+    /// Fixed price of an order.
     #[serde(default)]
     pub setup: f64,
-    /// What an hour of print time costs.
+    /// Price of an hour of print time.
     #[serde(default)]
     pub machine_per_h: f64,
-    /// What a millilitre of resin costs.
+    /// Price of a millilitre of resin.
     #[serde(default)]
     pub resin_per_ml: f64,
     /// Resin of supports, as a fraction of that in the model.
@@ -27,7 +27,7 @@ pub struct Prices {
     /// The finishes to choose from.
     #[serde(default)]
     pub finishes: Vec<Finish>,
-    /// What is taken off for many copies, in ascending order of copies.
+    /// Discounts for many copies, in ascending order of copies.
     #[serde(default)]
     pub quantity_breaks: Vec<QuantityBreak>,
     /// The least that an order costs.
@@ -43,10 +43,10 @@ pub struct Prices {
 pub struct Finish {
     /// Its name, by which it is ordered.
     pub name: String,
-    /// What it costs for each copy.
+    /// Price of each copy.
     #[serde(default)]
     pub per_copy: f64,
-    /// What it costs for each millilitre of resin in the model.
+    /// Price of each millilitre of resin in the model.
     #[serde(default)]
     pub per_ml: f64,
 }
@@ -59,7 +59,7 @@ pub struct Finish {
 pub struct QuantityBreak {
     /// The least number of copies.
     pub copies: usize,
-    /// What is taken off machine, resin, supports and finish, as a fraction.
+    /// Discount on machine, resin, supports and finish, as a fraction.
     pub discount: f64,
 }
 

@@ -9,8 +9,8 @@ use serde::Serialize;
 pub struct Deviation {
     /// The greatest distance, in millimetres.
     pub max_mm: f64,
-    /// Where it is: x, y and z of the point that is that far from the other surface, with the model on the plate and centred
-    /// on x = y = 0.
+    /// The point that is that far from the other surface: x, y and z, with the model on the plate and centred on x = y
+    /// = 0.
     pub at_mm: [f64; 3],
     /// The mean over the surface, by area, in millimetres.
     pub mean_mm: f64,
@@ -30,12 +30,12 @@ pub struct LayerDeviation {
     pub mean_mm: Option<f64>,
 }
 
-/// What is known of a layer so far.
+/// Distances of a layer so far.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Tally {
     /// Square of the greatest distance; negative if there is none yet.
     pub squared: f64,
-    /// Where it is.
+    /// The point at that distance.
     pub at: DVec3,
     /// Sum of the distances of samples, each times its area.
     sum: f64,

@@ -11,7 +11,7 @@ use crate::model::Mesh;
 use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 
-/// Whether a facet is on the surface of the solid.
+/// Visibility of a facet: on the surface of the solid, or inside it.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Visibility {
     /// All of it is.

@@ -1,9 +1,10 @@
-//! What a print file prints, measured against the model: an independent check of finished print files, whoever wrote them.
+//! The print that a print file makes, measured against the model: an independent check of finished print files from any
+//! program.
 //!
-//! [`simulate`] builds the printed solid from the masks and heights of a print file, each lit pixel as high as its layer, and
-//! measures two one-sided distances between its surface and the model's: how far the print is from the model
-//! ([`Simulation::print_to_model`]), and how far the model is from the print ([`Simulation::model_to_print`]). The first
-//! finds what is printed but should not be; the second what should be printed but is not.
+//! [`simulate`] builds the printed solid from the masks and heights of a print file, each lit pixel as high as its
+//! layer, and measures two one-sided distances between its surface and the model's: from the print to the model
+//! ([`Simulation::print_to_model`]), and from the model to the print ([`Simulation::model_to_print`]). The first finds
+//! material that is printed but should not be; the second material that should be printed but is not.
 //!
 //! It shares no code with profiles, planners, masks and encoders, so their defects are not its own. It reads models as they
 //! do, and print files by [`crate::archive::read`].
@@ -68,7 +69,7 @@ impl Original {
     }
 }
 
-/// Where the masks are relative to the model.
+/// Placement of the masks relative to the model.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
@@ -101,7 +102,7 @@ pub struct Simulation {
     pub pixel_mm: [f64; 2],
     /// Half the diagonal of a pixel: what masks do not resolve, and by which any distance may be off.
     pub half_pixel_diagonal_mm: f64,
-    /// Where the masks are relative to the model.
+    /// Placement of the masks relative to the model.
     pub placement: Placement,
     /// The centre of the masks relative to that of the model's bounding box, in x and y.
     pub offset_mm: [f64; 2],

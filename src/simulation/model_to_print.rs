@@ -106,7 +106,7 @@ pub(super) fn measure(
 enum Phase {
     /// The middles of small triangles.
     Sample,
-    /// What may exceed the greatest of these.
+    /// The places that may exceed the greatest of these.
     Search,
 }
 
@@ -225,7 +225,7 @@ impl<'a> Survey<'a> {
                 return hint;
             }
         } else if radius <= self.sample_radius {
-            // Facets may coincide, and then no part is free of what meets it.
+            // Facets may coincide, and then every part of one meets the other.
             let inward = triangle.map(|corner| corner + (middle - corner) * 0.1);
             if inward.iter().all(|&point| !self.is_shown(point, cut)) {
                 return hint;
@@ -243,7 +243,8 @@ impl<'a> Survey<'a> {
         hint
     }
 
-    /// What still meets a part of a triangle; if nothing does, one point tells whether the part is hidden.
+    /// The facets that still meet a part of a triangle; if there are none, one point decides whether the part is
+    /// hidden.
     fn rest(&self, part: &Triangle, cut: Cut<'_>) -> Rest {
         if cut.met.is_empty() {
             return Rest::Shown;
@@ -304,7 +305,7 @@ impl Cut<'_> {
     }
 }
 
-/// What meets a part of a facet.
+/// Facets that meet a part of a facet.
 enum Rest {
     /// Nothing: it is on the surface.
     Shown,

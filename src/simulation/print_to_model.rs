@@ -1,7 +1,7 @@
 //! From the printed surface to the model.
 //!
-//! The printed surface of a layer is its walls and shelves: the sides of lit pixels beside dark ones, as high as the layer;
-//! the tops of lit pixels under dark ones; and their undersides above dark ones. Rows give them as rectangles.
+//! The printed surface of a layer is its walls and shelves: the sides of lit pixels next to dark ones, as high as the
+//! layer; the tops of lit pixels under dark ones; and their undersides above dark ones. Rows give them as rectangles.
 //!
 //! The distance from a rectangle to one facet is a convex function, so the greatest is at one of four corners, and no point
 //! of the rectangle is farther from the model than that. Where this does not exceed the greatest distance of the layer so
@@ -19,7 +19,7 @@ use crate::progress::{Cancelled, Progress};
 
 /// Number of layers that one thread examines in turn.
 const RUN: usize = 4;
-/// Number of faces of a layer, if it has so many, over which its mean is taken.
+/// Number of faces of a layer over which its mean is taken; all of them if it has fewer.
 const SAMPLES: usize = 512;
 /// Maximum number of cells in x and y for which the last nearest facet is remembered.
 const CELLS: u32 = 512;

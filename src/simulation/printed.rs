@@ -29,7 +29,7 @@ pub(super) struct Printed {
 pub(super) struct Nearest {
     /// Square of the distance to it, in mm².
     pub squared: f64,
-    /// Where it is.
+    /// The nearest point.
     pub point: DVec3,
 }
 
@@ -183,7 +183,7 @@ struct Search<'a> {
 }
 
 impl Search<'_> {
-    /// Searches a layer. Returns whether layers beyond it may be nearer than what is found.
+    /// Searches a layer. Returns true if layers beyond it may be nearer than the nearest point so far.
     fn layer(&mut self, layer: isize) -> bool {
         let layers = self.printed.layers() as isize;
         if layer < -1 || layer > layers {
@@ -238,7 +238,7 @@ impl Search<'_> {
         }
     }
 
-    /// Searches a row of a mask. Returns whether rows beyond it may be nearer than what is found.
+    /// Searches a row of a mask. Returns true if rows beyond it may be nearer than the nearest point so far.
     fn row(&mut self, mask: &Mask, row: i32, z: f64, up: f64) -> bool {
         let y = self.pixel.y.clamp(f64::from(row), f64::from(row + 1));
         let across = (y - self.pixel.y) * self.printed.pitch.y;

@@ -1,4 +1,4 @@
-//! What a print file says, in one form for all formats.
+//! Metadata of a print file, in one form for all formats.
 
 use std::sync::Arc;
 
@@ -8,7 +8,7 @@ use super::Format;
 use super::mask::Flips;
 use crate::printer::{PRINTERS, Printer};
 
-/// What a print file says of the print as a whole. What it does not say is absent.
+/// Metadata of a print as a whole. Values that the file does not state are absent.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
@@ -99,7 +99,8 @@ impl About {
         self.is_mirrored_x.or_else(by_printer)
     }
 
-    /// How stored masks become masks seen from above. What neither the file nor its printer says is taken for not mirrored.
+    /// Transformation from stored masks to masks seen from above. Masks are taken to be unmirrored if neither the file
+    /// nor its printer says.
     pub fn flips(&self) -> Flips {
         Flips {
             mirror_x: self.is_mirrored().unwrap_or(false),
@@ -128,8 +129,8 @@ impl About {
     }
 }
 
-/// What a print file says of a layer, whether or not that counts ([`About::uses_layer_values`]). What it does not say is
-/// absent.
+/// Values that a print file states for a layer, whether or not they count ([`About::uses_layer_values`]). Values that
+/// it does not state are absent.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]

@@ -70,7 +70,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     })
 }
 
-/// What the printer has been told since the light last went out.
+/// Commands to the printer since the light last went out.
 #[derive(Default)]
 struct Told {
     mask: Option<String>,
@@ -82,7 +82,7 @@ struct Told {
 }
 
 impl Told {
-    /// What remains when the light is off: after a layer, the mask alone.
+    /// The state once the light is off: after a layer, the mask alone.
     fn in_the_dark(self) -> Self {
         if !self.is_lit {
             return self;

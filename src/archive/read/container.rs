@@ -8,7 +8,7 @@ use zip::result::ZipError;
 
 use super::{Bytes, PrintFileError};
 
-/// What a file of settings may unpack to.
+/// Largest unpacked size of a file of settings.
 const SETTINGS_BYTES: u64 = 64 << 20;
 
 /// A zip. Copies share its directory.
@@ -39,7 +39,7 @@ impl<'a> Archive<'a> {
         self.0.index_for_name(name).is_some()
     }
 
-    /// Names of all files, as far as they are text.
+    /// Names of all files, except those that are not text.
     pub fn names(&self) -> impl Iterator<Item = String> {
         self.0.file_names().flatten().map(Cow::into_owned)
     }

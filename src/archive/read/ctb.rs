@@ -8,7 +8,7 @@ use super::{
     About, Coding, Contents, Format, Layer, LayerFault, Places, PrintFileError, UnreadKind,
 };
 
-/// What a file begins with.
+/// First bytes of a file, by its kind.
 #[derive(Clone, Copy)]
 pub enum Magic {
     /// Versions 2 to 5, the `GKtwo`'s among them.
@@ -193,7 +193,7 @@ fn read_more(
     Ok(())
 }
 
-/// What data is scrambled with: four bytes at a time, each word further than the one before by the same step.
+/// Key stream that scrambles data, four bytes at a time: each word is the one before plus a constant step.
 struct Scrambling {
     step: u32,
     word: u32,

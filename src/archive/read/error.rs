@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::Format;
 
-/// What the readers know, as a sentence names it.
+/// Names of the formats that can be read, for a sentence.
 const KNOWN: &str = "png, chitubox, uvj, sl1, nanodlp, goo, ctb, photon-workshop or anycubic-zip";
 
 /// A kind of print file that is recognised, and cannot be read.
@@ -44,7 +44,7 @@ pub enum PrintFileError {
     /// A zip, but damaged.
     #[error("it is a damaged zip ({system}); copy or export it again")]
     DamagedZip {
-        /// What the reader of zips said.
+        /// The zip reader's message.
         system: String,
     },
     /// A zip, but without the settings of any known format.
@@ -79,7 +79,7 @@ pub enum PrintFileError {
         kind.in_words()
     )]
     Unread {
-        /// What it is.
+        /// The kind.
         kind: UnreadKind,
     },
     /// A version of a format that cannot be read.
@@ -100,7 +100,7 @@ pub enum PrintFileError {
         "it is cut short: its settings need {needed_bytes} bytes, and it has {found_bytes}; copy or export it again"
     )]
     Truncated {
-        /// Where what it should have ends.
+        /// Length that its settings require.
         needed_bytes: u64,
         /// Length of the file.
         found_bytes: u64,
@@ -110,7 +110,7 @@ pub enum PrintFileError {
     TooManyLayers {
         /// Number of layers that the settings declare.
         layers: u64,
-        /// How many there can be in a file of this size.
+        /// The most that fit into a file of this size.
         most: u64,
     },
     /// A file of the zip is missing.
@@ -124,7 +124,7 @@ pub enum PrintFileError {
     BadFile {
         /// Name in the zip.
         name: String,
-        /// What a parser said.
+        /// The parser's message.
         system: String,
     },
     /// A file of the zip is larger than it can be.
@@ -132,7 +132,7 @@ pub enum PrintFileError {
     TooLarge {
         /// Name in the zip.
         name: String,
-        /// How large it may be.
+        /// The largest size allowed.
         most_bytes: u64,
     },
     /// A setting is missing, or is not what it must be.
@@ -158,7 +158,7 @@ pub enum PrintFileError {
     Layer {
         /// Number of the layer, from 1.
         layer: usize,
-        /// What is wrong.
+        /// The fault.
         fault: LayerFault,
     },
 }
@@ -179,7 +179,7 @@ impl PrintFileError {
     }
 }
 
-/// What is wrong with the mask of a layer.
+/// Fault in the mask of a layer.
 #[derive(Debug, Clone, PartialEq, Eq, thiserror::Error, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
@@ -197,7 +197,7 @@ pub enum LayerFault {
     BadMask {
         /// Name in the zip.
         name: String,
-        /// What a decoder said.
+        /// The decoder's message.
         system: String,
     },
     /// It has another size than the settings say.
@@ -217,7 +217,7 @@ pub enum LayerFault {
     /// Its data is said to be where the file has ended.
     #[error("its data ends at byte {end_byte}, and the file at byte {file_bytes}")]
     OutsideFile {
-        /// Where the data should end.
+        /// End of the data in the file.
         end_byte: u64,
         /// Length of the file.
         file_bytes: u64,

@@ -1,4 +1,4 @@
-//! What is wrong with a print file that can be read.
+//! Faults of a print file that can be read.
 
 use serde::Serialize;
 
@@ -52,7 +52,7 @@ pub enum FileFinding {
         thinnest_mm: f64,
         /// The thickest, in millimetres.
         thickest_mm: f64,
-        /// What the printer takes instead, in millimetres.
+        /// The thickness that the printer uses instead, in millimetres.
         layer_mm: Option<f64>,
     },
     /// Layers have no exposure.
@@ -73,11 +73,11 @@ pub enum FileFinding {
     },
     /// Masks cannot be read, or not as they were written.
     BadLayers {
-        /// How many have this kind of fault.
+        /// Number of layers with this kind of fault.
         layers: usize,
         /// The first of them.
         first_layer: usize,
-        /// What is wrong with it.
+        /// Its fault.
         fault: LayerFault,
     },
     /// The bytes that end a layer's settings and data are not where they should be.
@@ -96,7 +96,7 @@ pub enum FileFinding {
     },
 }
 
-/// How many layers have the same, and the first of them.
+/// Number of layers with the same fault, and the first of them.
 pub(super) struct Tally<T> {
     pub layers: usize,
     /// Number of the layer, from 1, and its details.
@@ -157,7 +157,7 @@ pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<Fi
     findings
 }
 
-/// What is wrong with heights and exposures.
+/// Faults of heights and exposures.
 pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
     let mut findings = Vec::new();
     let Some(first) = layers.first() else {

@@ -8,13 +8,13 @@ use super::{
     About, Coding, Contents, FileFinding, Format, Layer, LayerFault, Places, PrintFileError,
 };
 
-/// What stands at byte 4, and again at the end after three zeros.
+/// Bytes at offset 4, and again at the end after three zeros.
 const MAGIC: [u8; 8] = [7, 0, 0, 0, 0x44, 0x4C, 0x50, 0];
 /// Length of the header.
 const HEADER: u64 = 195_477;
 /// Length of a layer without its data: the definition, and two bytes after the data.
 const LAYER: u64 = 72;
-/// What ends a definition and a layer's data.
+/// End of a definition, and of a layer's data.
 const MARK: [u8; 2] = [0x0D, 0x0A];
 /// The only printer whose files have the lowest byte first.
 const LITTLE_ENDIAN: &str = "ELEGOO Jupiter 2";

@@ -29,7 +29,7 @@ impl<'a> Row<'a> {
     }
 }
 
-/// What a mask must be.
+/// Requirements on a mask.
 #[derive(Clone, Copy)]
 pub(super) struct Expected<'a> {
     /// Columns and rows of the image.
@@ -154,7 +154,7 @@ pub(super) fn subpixel_runs(
     }
 }
 
-/// How many of the first bytes are equal to one, eight at a time.
+/// Number of leading bytes equal to `byte`, compared eight at a time.
 fn equal(bytes: &[u8], byte: u8) -> usize {
     let words = bytes.chunks_exact(8);
     let words = words.take_while(|word| **word == [byte; 8]).count();
@@ -162,7 +162,7 @@ fn equal(bytes: &[u8], byte: u8) -> usize {
     8 * words + rest.take_while(|&&other| other == byte).count()
 }
 
-/// How many of the samples of a pixel are colours.
+/// Number of colours among the samples of a pixel.
 fn colours(samples: usize) -> usize {
     if samples <= 2 { 1 } else { 3 }
 }

@@ -3,7 +3,7 @@
 /// Grey pixels are lit from this brightness on, half of the full one.
 pub(super) const HALF: u8 = 128;
 
-/// How a stored mask becomes one seen from above, with x to the right and row 0 at the largest y.
+/// Transformation from a stored mask to one seen from above, with x to the right and row 0 at the largest y.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq)]
 pub struct Flips {
     /// True if columns are stored from right to left.
@@ -22,7 +22,7 @@ pub struct Flips {
 pub struct Mask {
     /// The first row with a lit pixel.
     first_row: u32,
-    /// Where each row begins in `columns`, from `first_row` to the last row with a lit pixel, and the end of that row.
+    /// Start of each row in `columns`, from `first_row` to the last row with a lit pixel, and the end of that row.
     starts: Vec<u32>,
     columns: Vec<u16>,
 }

@@ -13,9 +13,9 @@
 //! # }
 //! ```
 //!
-//! The format is told by content. Bytes are held once, and layers are decoded when they are asked for. Whatever a file says
-//! is checked before it is believed: bad input is an error or a [`FileFinding`], and no file makes a reader hold much more
-//! than it justifies.
+//! The format is recognised by content. Bytes are held once, and layers are decoded on request. Every value in a file
+//! is checked before use: bad input is an error or a [`FileFinding`], and no file makes a reader allocate much more
+//! than its size justifies.
 
 mod about;
 mod anycubic_zip;
@@ -82,7 +82,7 @@ pub struct PrintedCopy {
     pub middle_mm: [f64; 2],
 }
 
-/// What a format's reader finds.
+/// Result of a format's reader.
 struct Contents {
     about: About,
     layers: Vec<Layer>,
@@ -91,7 +91,7 @@ struct Contents {
     pictures: Vec<Picture>,
     /// The copies in the masks, if the file says so.
     copies: Option<Vec<PrintedCopy>>,
-    /// What is wrong besides layers and heights.
+    /// Faults other than those of layers and heights.
     findings: Vec<FileFinding>,
 }
 
@@ -103,7 +103,7 @@ impl Contents {
     }
 }
 
-/// How layers are encoded.
+/// Encoding of layers.
 #[derive(Debug, Clone, Copy)]
 enum Coding {
     Png,
@@ -119,7 +119,7 @@ enum Coding {
     },
 }
 
-/// Where the data of each layer is, from the plate upward.
+/// Location of each layer's data, from the plate upward.
 enum Places {
     /// Bytes of the file.
     InFile(Vec<Range<u64>>),
@@ -163,12 +163,12 @@ impl<'a> PrintFile<'a> {
         })
     }
 
-    /// What the file says of the print as a whole.
+    /// Metadata of the print as a whole.
     pub fn about(&self) -> &About {
         &self.contents.about
     }
 
-    /// What the file says of each layer, from the plate upward.
+    /// Values of each layer, from the plate upward.
     pub fn layers(&self) -> &[Layer] {
         &self.contents.layers
     }
@@ -305,7 +305,7 @@ impl<'a> PrintFile<'a> {
         }
     }
 
-    /// What a mask in a zip may unpack to: four bytes a pixel, and as much again as small files have besides.
+    /// Largest unpacked size of a mask in a zip: four bytes a pixel, and 64 KiB besides, which small files need.
     fn most_bytes(&self) -> u64 {
         4 * self.about().mask_pixels() + (1 << 16)
     }
@@ -328,7 +328,7 @@ fn at_layer(layer: usize, fault: LayerFault) -> PrintFileError {
     }
 }
 
-/// What it means for a mask that a file of the zip cannot be read.
+/// The fault of a mask whose file in the zip cannot be read.
 fn mask_fault(error: PrintFileError) -> LayerFault {
     match error {
         PrintFileError::MissingFile { name } => LayerFault::MissingMask { name },
@@ -362,7 +362,7 @@ fn read_archive(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
 
 /// Why a zip without the settings of a print file cannot be read.
 fn without_masks(archive: &Archive<'_>) -> PrintFileError {
-    /// Where slicers of filament printers look for layers.
+    /// Names under which slicers of filament printers look for layers.
     const LAYERS: [&str; 2] = [
         "Metadata/Slic3r_PE_layer_heights_profile.txt",
         "Metadata/layer_heights_profile.txt",
@@ -387,13 +387,13 @@ fn side(pixels: u32, length_mm: Option<f64>) -> Option<f64> {
     (pixels > 0).then(|| length_mm / f64::from(pixels))
 }
 
-/// Names beside each other.
+/// Names, joined with spaces.
 fn joined(names: &[Option<String>]) -> Option<String> {
     let names: Vec<&str> = names.iter().flatten().map(String::as_str).collect();
     (!names.is_empty()).then(|| names.join(" "))
 }
 
-/// The number of layers that a file declares, if there is room for so many of at least `each` bytes.
+/// The number of layers that a file declares, if `room` bytes hold that many layers of at least `each` bytes.
 fn checked_layers(layers: u32, room: u64, each: u64) -> Result<usize, PrintFileError> {
     let (layers, most) = (u64::from(layers), room / each);
     if layers > most {

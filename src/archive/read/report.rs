@@ -8,12 +8,12 @@ use super::{About, FileFinding, Layer, LayerFault, Mask, PrintFile};
 use crate::parallel;
 use crate::progress::{Cancelled, Progress, report};
 
-/// What a print file says, and what its masks hold.
+/// Metadata of a print file, and statistics of its masks.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct Inspection {
-    /// What the file says of the print as a whole.
+    /// Metadata of the print as a whole.
     #[serde(flatten)]
     pub about: About,
     /// Number of layers.
@@ -28,7 +28,7 @@ pub struct Inspection {
     pub lit_volume_ml: f64,
     /// Sizes of the previews that could be decoded.
     pub previews: Vec<PreviewSize>,
-    /// What is wrong with the file.
+    /// Faults of the file.
     pub warnings: Vec<FileFinding>,
     /// Each layer, from the plate upward.
     pub layer_values: Vec<LayerInspection>,
@@ -45,12 +45,12 @@ pub struct PreviewSize {
     pub height: u32,
 }
 
-/// What a file says of a layer, and what its mask holds.
+/// Values that a file states for a layer, and statistics of its mask.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 pub struct LayerInspection {
-    /// What the file says.
+    /// Values stated in the file.
     #[serde(flatten)]
     pub layer: Layer,
     /// Number of pixels that are not black; absent if the mask cannot be decoded.
@@ -59,7 +59,7 @@ pub struct LayerInspection {
     pub grey_pixels: Option<u64>,
 }
 
-/// What the mask of a layer holds.
+/// Statistics of a layer's mask.
 #[derive(Default)]
 struct Light {
     lit: u64,

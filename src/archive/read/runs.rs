@@ -1,4 +1,4 @@
-//! Runs of equal pixels in raster order, on their way from a layer's data to whoever wants them.
+//! Runs of equal pixels in raster order, passed from a layer's data to a sink.
 
 use super::LayerFault;
 
@@ -87,7 +87,7 @@ impl<'a> Reader<'a> {
         self.data.len() - self.place
     }
 
-    /// What was read last is no run.
+    /// The fault for a last byte that is not part of a run.
     pub fn fault(&self) -> LayerFault {
         LayerFault::BadRun {
             byte: (self.place as u64).saturating_sub(1),

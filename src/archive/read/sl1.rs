@@ -16,7 +16,7 @@ use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, posi
 const CONFIG: &str = "config.ini";
 const SLICER: &str = "prusaslicer.ini";
 
-/// Printers expose so many layers like the first one, whatever the file says; then the exposure fades.
+/// Number of layers that printers expose like the first one, whatever the file says; then the exposure fades.
 const BOTTOM_LAYERS: u32 = 3;
 
 pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {

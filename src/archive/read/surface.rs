@@ -1,4 +1,4 @@
-//! The surface of what a print file prints, coarse enough to look at: the masks, averaged over a grid of cubes, and the surface
+//! Surface of a print file's solid, coarse enough to display: the masks, averaged over a grid of cubes, and the surface
 //! nets of the grid (Gibson, Constrained Elastic Surface Nets, 1998).
 
 use super::{Layer, Mask};
@@ -33,7 +33,7 @@ struct Slab<'a> {
     thickness_mm: f64,
 }
 
-/// How much of each cell of a grid is lit.
+/// Lit fraction of each cell of a grid.
 struct Cells {
     /// Cells in x, y and z, with a margin of empty ones.
     count: [usize; 3],

@@ -15,12 +15,13 @@ use crate::mask::Run;
 
 pub struct Anycubic;
 
-/// What printers expect, after files of Anycubic's own slicer. Lifts have one stage: the second has no height. No curve of
-/// exposures is selected and the printer's own mode is off, so the printer keeps to the exposures and speeds here. The image
-/// format is always called `pwszImg`, and `property` and the constants of print times are the same for all printers.
+/// Settings that printers expect, after files of Anycubic's own slicer. Lifts have one stage: the second has no height.
+/// No curve of exposures is selected and the printer's own mode is off, so the printer keeps to the exposures and
+/// speeds here. The image format is always called `pwszImg`, and `property` and the constants of print times are the
+/// same for all printers.
 const TEMPLATE: &str = include_str!("anycubic.json");
 
-/// What the format calls its masks.
+/// The format's name for its masks.
 const IMAGE_FORMAT: &str = "pw0Img";
 /// The extension for printers that do not say.
 const USUAL_SUFFIX: &str = "pwsz";

@@ -68,7 +68,7 @@ fn json_file(name: &str, value: &Value) -> Result<File, ArchiveError> {
 /// Name and contents of a file in a zip.
 pub type File = (String, Vec<u8>);
 
-/// What differs between formats.
+/// A zip format of masks and settings.
 pub trait Container: Sync {
     /// The name of a layer's mask.
     fn mask_name(&self, layer: usize) -> String;

@@ -1,5 +1,5 @@
-//! Settings of printers as JSON: templates in which a text such as `$layer_mm` stands for a value of the job. Most of what
-//! printers expect never changes, and takes less room as text than as code.
+//! Settings of printers as JSON: templates in which a text such as `$layer_mm` stands for a value of the job. Most
+//! settings never change, and take less room as text than as code.
 
 use serde_json::{Value, json};
 
