@@ -154,7 +154,7 @@ impl Calibration {
         if !format.has_masks() {
             return Err(ArchiveError::NoMasks { format }.into());
         }
-        // Whether it prints them is what the print shall tell.
+        // The print itself is to show if the printer prints several thicknesses.
         let printer = printer.map(|printer| {
             let mut printer = Arc::unwrap_or_clone(printer);
             printer.variable_layers = VariableLayers::Yes;

@@ -61,7 +61,7 @@ pub enum Error {
     )]
     #[serde(rename = "time-bound")]
     TimeBound {
-        /// What takes it.
+        /// The work that takes it.
         work: Work,
         /// Seconds that it takes, of all processors together.
         needed_s: f64,
@@ -104,7 +104,7 @@ pub enum Error {
     #[error(transparent)]
     #[serde(untagged)]
     Archive(#[from] ArchiveError),
-    /// What a shop accepts is invalid.
+    /// Limits of the checks are invalid.
     #[error(transparent)]
     #[serde(untagged)]
     Limits(#[from] LimitsError),
@@ -123,7 +123,7 @@ pub enum Error {
     Merge(#[from] MergeError),
 }
 
-/// What takes processor time.
+/// Work that takes processor time.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "kebab-case")]

@@ -1,5 +1,4 @@
-//! The least sum of volume deviations beside the smallest maximum error: two ends of what layers of varying thickness can be
-//! planned for.
+//! The Pareto front of plans, from both ends: the least sum of volume deviations, and the smallest maximum error.
 
 use super::stages::planned::PlannedModel;
 use super::stages::planning::Planning;
@@ -13,8 +12,8 @@ use crate::profile::{LayerErrors, Metric, Source};
 use crate::quantity::Quantity;
 
 impl Job {
-    /// The plans of a plate with the least sum of volume deviations beside those of the smallest maximum error, for some `points` numbers
-    /// of layers from the fewest to the most. The tolerance has no say. The last plan is kept.
+    /// Plans of a plate with the least sum of volume deviations, paired with those of the smallest maximum error, for
+    /// about `points` numbers of layers from the fewest to the most. The tolerance is ignored. The last plan is kept.
     ///
     /// # Errors
     /// Any [`Error`] of sampling and planning.
@@ -67,7 +66,7 @@ impl Planning<'_> {
         Ok(front)
     }
 
-    /// The plan of the smallest maximum error with at most so many layers.
+    /// The plan of the smallest maximum error with at most this number of layers.
     fn least_maximum(&self, limits: &Limits, layers: usize) -> Result<Plan, PlanError> {
         let goal = Goal::Layers(layers);
         let resin = &self.layering.resin;

@@ -42,9 +42,9 @@ impl Job {
         self
     }
 
-    /// Takes no more than about this many bytes from now on, as far as that is possible: hits and masks that do not fit are found again
-    /// when they are needed, and print files are the same. Models share them equally. See [`Error::MemoryBound`] for what is not
-    /// possible.
+    /// Limits memory to about this many bytes from now on: hits and masks that do not fit are found again when they are
+    /// needed, and print files are the same. Models share the bytes equally. See [`Error::MemoryBound`] for jobs that
+    /// cannot be kept within them.
     #[cfg(not(target_arch = "wasm32"))]
     #[must_use]
     pub fn with_memory(mut self, bytes: u64) -> Self {

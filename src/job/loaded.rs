@@ -179,8 +179,8 @@ impl LoadedModel {
         Ok(self.saliency.insert(saliency))
     }
 
-    /// The weight of each facet of the surface: the product of the user's weight and of saliency (section 4.2), as far as
-    /// these are set, but at least the minimum weight. `None` if neither is set.
+    /// The weight of each facet of the surface: the product of the user's weight and of saliency (section 4.2), or the
+    /// one that is set, but at least the minimum weight. `None` if neither is set.
     ///
     /// # Errors
     /// [`Error::Options`], [`Error::Plan`], and those of [`Self::saliency`].

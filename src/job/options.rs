@@ -1,4 +1,4 @@
-//! What to slice and how, as users specify it.
+//! Options of slicing, as users specify them.
 
 use serde::{Deserialize, Serialize};
 
@@ -12,7 +12,7 @@ use crate::printer::PrinterChoice;
 use crate::profile::{Metric, Source};
 use crate::resin::Resin;
 
-/// Where the LDI is sampled.
+/// Processor that samples the LDI.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -28,7 +28,7 @@ pub enum Backend {
     Cpu,
 }
 
-/// How a GPU finds the hits of rays. Both methods find the same.
+/// Method by which a GPU finds the hits of rays. Both methods find the same.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -44,7 +44,7 @@ pub enum GpuMethod {
     Peel,
 }
 
-/// How layers are chosen.
+/// Planner: the rule by which layers are chosen.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -87,7 +87,7 @@ impl Planner {
     }
 }
 
-/// What the optimal planner minimizes.
+/// Quantity that the optimal planner minimizes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
@@ -101,14 +101,14 @@ pub enum Minimize {
     Time,
 }
 
-/// Whether to put planes at flats and sharp changes.
+/// Use of planes at flats and sharp changes.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(feature = "cli", derive(clap::ValueEnum))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Snap {
-    /// Wherever the layers beside them add up and stay within tolerance.
+    /// Wherever the adjacent layers fill their heights and stay within tolerance.
     #[default]
     Auto,
     /// Never: the planner alone chooses the planes.
@@ -118,7 +118,7 @@ pub enum Snap {
 /// Minimum and maximum layer thickness on resin printers if none are given, in millimetres.
 pub const LAYERS_MM: [f64; 2] = [0.05, 0.15];
 
-/// What to slice and how. All lengths are in millimetres.
+/// Options of slicing. All lengths are in millimetres.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -132,10 +132,10 @@ pub struct Options {
     /// unit ignores it.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub unit: Option<ModelUnit>,
-    /// How the model is hollowed; solid if absent.
+    /// Hollowing of the model; solid if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub hollow: Option<Hollowing>,
-    /// How the model is supported, and lifted above the plate; not at all if absent.
+    /// Supports of the model, which also lift it above the plate; none if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub supports: Option<Supporting>,
     /// Name of a known printer, see [`crate::printer::PRINTERS`], or the description of another. It provides pixels, pitch,
@@ -192,28 +192,28 @@ pub struct Options {
     pub ranges: Vec<HeightRange>,
     /// Heights at which there must be a plane.
     pub planes_mm: Vec<f64>,
-    /// Whether to put planes at flats and sharp changes.
+    /// Use of planes at flats and sharp changes.
     pub snap: Snap,
     /// Minimum area, in mm², of a flat that gets a plane.
     pub flat_area_mm2: f64,
-    /// What the error measures.
+    /// Metric of the error.
     pub metric: Metric,
-    /// What errors are measured on.
+    /// Source of the surface on which errors are measured.
     pub source: Source,
-    /// Whether to weight facets by saliency, how much they stand out: see [`crate::model::saliency`].
+    /// True if facets are weighted by saliency: see [`crate::model::saliency`].
     pub saliency: bool,
     /// Smallest weight of a facet, 0 to 1, if facets are weighted. A facet of weight w may exceed the tolerance by a factor
     /// of 1/w.
     pub weight_min: f64,
-    /// How layers are chosen.
+    /// Planner: the rule by which layers are chosen.
     pub planner: Planner,
-    /// What the optimal planner minimizes.
+    /// Quantity that the optimal planner minimizes.
     pub minimize: Minimize,
     /// The resin: exposures, and the time between them.
     pub resin: Resin,
-    /// Where the LDI is sampled.
+    /// Processor that samples the LDI.
     pub backend: Backend,
-    /// How it is sampled on a GPU.
+    /// Method by which a GPU samples it.
     pub gpu_method: GpuMethod,
 }
 

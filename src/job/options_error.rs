@@ -14,7 +14,7 @@ pub enum OptionsError {
     #[error("the options cannot be read: {system}")]
     #[serde(rename = "bad-options")]
     Unreadable {
-        /// What the parser said.
+        /// The parser's message.
         system: String,
     },
     /// No printer has this name.

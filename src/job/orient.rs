@@ -35,7 +35,7 @@ pub struct OrientationReport {
     pub model: ModelFile,
     /// The options of the search.
     pub search: SearchOptions,
-    /// What energies are relative to.
+    /// Reference values of energies.
     pub scale: Scale,
     /// The candidate for the current orientation.
     pub now: Candidate,
@@ -249,7 +249,7 @@ impl LoadedModel {
         Ok(height_mm / size.z)
     }
 
-    /// Checks for what is invalid in every direction. It is an error, not a reason to exclude a direction.
+    /// Checks options that are invalid in every direction. That is an error, not a reason to exclude a direction.
     fn check_for_all_directions(&self, resolved: &Resolved) -> Result<(), Error> {
         match resolved.sampling.grid(&self.mesh.bounds()) {
             Err(error) if exclusion(&error).is_none() => Err(error.into()),

@@ -1,4 +1,4 @@
-//! Where the copies of a plate stand.
+//! Places of the copies on plates.
 
 use std::sync::Arc;
 
@@ -42,7 +42,7 @@ impl Layout {
     }
 }
 
-/// How large a model is, before turns about z.
+/// Size of a model, before turns about z.
 #[derive(Debug, Clone)]
 pub(super) struct Extent {
     /// In x, y and z.
@@ -100,7 +100,7 @@ impl Posed<'_> {
 }
 
 impl Job {
-    /// Where copies stand when they are arranged: for the fewest plates, then the lowest.
+    /// Arranges copies: on the fewest plates, then the lowest. Returns their places.
     ///
     /// # Errors
     /// [`Error::Arrange`], [`Error::Options`], [`Error::Mesh`].
@@ -181,7 +181,7 @@ impl Job {
         }
     }
 
-    /// How a model is sampled, after turns.
+    /// The sampling of a model, after turns.
     pub(super) fn sampling_of(
         &self,
         options: &JobOptions,

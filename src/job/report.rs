@@ -59,7 +59,7 @@ pub struct MeshInfo {
     pub open_edges: usize,
     /// Number of holes that were closed by caps.
     pub holes: usize,
-    /// Number of facets that were turned over, as they faced the other way than those beside them or than their body.
+    /// Number of facets that were turned over, as they faced another way than their neighbours or their body.
     pub turned_facets: usize,
     /// Peak memory of an orientation search on one thread, in bytes.
     pub search_bytes: usize,
@@ -191,7 +191,7 @@ pub struct PrintFileReport {
     pub media_type: String,
     /// True if a printer is named and reads the format without a converter.
     pub is_read_by_printer: bool,
-    /// What must match in the slicer, if the format is for one of filament printers.
+    /// Settings that must match in the slicer, if the format is for filament printers.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub filament: Option<FilamentReport>,
 }
@@ -313,7 +313,8 @@ pub struct Comparison {
     pub metric: Metric,
     /// The unit of the errors.
     pub unit: String,
-    /// One row per planner, from the coarsest to the finest. A thickness rule has a row of its own beside the optimal planner.
+    /// One row per planner, from the coarsest to the finest. A thickness rule has a row of its own in addition to the
+    /// optimal planner.
     pub rows: Vec<PlannerReport>,
 }
 
@@ -385,13 +386,13 @@ pub struct Preview {
     pub layers: usize,
     /// Extent of the model in x, y and z.
     pub size_mm: [f64; 3],
-    /// How far supports lift it above the plate.
+    /// Distance by which supports lift it above the plate.
     pub lift_mm: f64,
     /// Heights of layer boundaries, from 0 upward: one more than there are layers.
     pub z_mm: Vec<f64>,
     /// Thickness of each layer.
     pub thickness_mm: Vec<f64>,
-    /// What the error measures.
+    /// Metric of the error.
     pub metric: Metric,
     /// The largest error of a layer, in the metric's unit.
     pub max_error: f64,
@@ -440,7 +441,7 @@ pub struct Report {
     pub printer: Option<String>,
     /// Heights of the planes at flats and sharp changes.
     pub snapped_mm: Vec<f64>,
-    /// What the error measures.
+    /// Metric of the error.
     pub metric: Metric,
     /// The unit of tolerance and errors: `mm`, `mm³`, or empty for a fraction.
     pub unit: String,
@@ -462,11 +463,11 @@ pub struct Report {
     pub max_deviation_mm: f64,
     /// Print time.
     pub print_time_s: f64,
-    /// Where the LDI was sampled, `cpu` or `gpu`.
+    /// Processor that sampled the LDI, `cpu` or `gpu`.
     pub backend: String,
     /// The GPU, if one was used.
     pub adapter: Option<String>,
-    /// How that GPU sampled, `fill` or `peel`.
+    /// Method by which that GPU sampled, `fill` or `peel`.
     pub gpu_method: Option<String>,
     /// Number of bins of the profile.
     pub bins: usize,

@@ -239,8 +239,8 @@ impl Options {
         })
     }
 
-    /// What a file for a slicer of filament printers depends on, if the format is for one: a nozzle that prints the layers, and
-    /// nothing that only resin printers have.
+    /// Settings of a file for a slicer of filament printers, if the format is for one: a nozzle that prints the layers.
+    /// It is an error if an option applies to resin printers only.
     fn check_filament(&self, printer: Option<&Printer>) -> Result<Option<Filament>, OptionsError> {
         let (slicer, nozzle_mm, first_layer_mm) =
             match (self.filament(), self.nozzle_mm, self.first_layer_mm) {

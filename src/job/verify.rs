@@ -20,7 +20,7 @@ pub enum VerifyError {
     /// The file is not the report of a plan.
     #[error("it is no plan as `cusp plan --json` prints it: {system}")]
     NotAPlan {
-        /// What the parser said.
+        /// The parser's message.
         system: String,
     },
     /// The report has another schema version, with other names or meanings.
@@ -56,7 +56,7 @@ pub enum VerifyError {
     /// The plan has lists of wrong lengths, or heights that do not ascend, so no model and options give it.
     #[error("it contradicts itself: {key} does not go with the rest")]
     Contradicts {
-        /// Path of what does not, such as `z_mm[3]`.
+        /// Path of the contradicting value, such as `z_mm[3]`.
         key: String,
     },
     /// The model and the options give another plan.
@@ -140,8 +140,8 @@ impl Claim {
         Ok(claims)
     }
 
-    /// The choices with which the model of a plan was read, as far as it says so. Whether it is right about that is found out with the
-    /// rest.
+    /// The choices with which the model of a plan was read; defaults if it does not state them. They are verified with
+    /// the rest.
     pub fn read_options(json: &str) -> ReadOptions {
         let first = |report: &Value| match &report["plates"] {
             Value::Array(plates) => plates.first()?["models"].get(0).cloned(),

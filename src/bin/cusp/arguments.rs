@@ -122,7 +122,7 @@ impl Target {
         Ok(options)
     }
 
-    /// Puts what is on the command line in place of what a file says; anti-aliasing, which has a default there, is left out.
+    /// Replaces options of a file by those on the command line; anti-aliasing, which has a default there, is left out.
     fn put_into(&self, options: &mut Options) -> Result<(), Failure> {
         if let Some(printer) = &self.printer {
             options.printer = Some(printer_choice(printer)?);
@@ -206,7 +206,7 @@ pub struct Choices {
     /// Smallest cavity: a ball of this diameter fits into the void everywhere [default: 2]
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
     cavity: Option<f64>,
-    /// What is left standing in the void
+    /// Structure left standing in the void
     #[arg(long, value_enum, help_heading = "Model")]
     infill: Option<InfillArg>,
     /// From one node of the infill to the next [default: 8]
@@ -222,7 +222,7 @@ pub struct Choices {
     /// Support the model: light, medium or heavy, auto for medium, none, or a JSON file of strength, sizes and points
     #[arg(long, value_name = "STRENGTH|FILE.json", help_heading = "Model")]
     supports: Option<String>,
-    /// How far supports lift the model above the plate [default: 5]
+    /// Lift the model this far above the plate, on its supports [default: 5]
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
     lift: Option<f64>,
     #[command(flatten)]
@@ -271,16 +271,16 @@ pub struct Choices {
     /// Find the smallest tolerance that prints in at most this many seconds
     #[arg(long, value_name = "S", value_parser = positive, conflicts_with_all = ["tolerance", "max_layers"], help_heading = "Layers")]
     max_time: Option<f64>,
-    /// What the error measures
+    /// Metric of the error
     #[arg(long, value_enum, default_value_t = Options::default().metric, help_heading = "Layers")]
     metric: Metric,
-    /// Where errors are measured
+    /// Surface on which errors are measured
     #[arg(long, value_enum, default_value_t = Options::default().source, help_heading = "Layers")]
     source: Source,
-    /// How layers are chosen
+    /// Rule by which layers are chosen
     #[arg(long, value_enum, default_value = "optimal", help_heading = "Layers")]
     planner: PlannerArg,
-    /// What the optimal planner minimizes
+    /// Quantity that the optimal planner minimizes
     #[arg(long, value_enum, default_value_t = Options::default().minimize, help_heading = "Layers")]
     minimize: Minimize,
     /// Layer thickness, for --planner uniform only: a length, `finest` or `coarsest`
@@ -301,15 +301,15 @@ pub struct Choices {
     /// Round heights to multiples of this: the printer's motor step
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     step: Option<f64>,
-    /// Whether to put planes at flats and sharp changes
+    /// Put planes at flats and sharp changes
     #[arg(long, value_enum, default_value_t = Options::default().snap, help_heading = "Layers")]
     snap: Snap,
     #[arg(long, value_name = "MM", value_parser = length, help = bin_help(), help_heading = "Layers")]
     bin: Option<f64>,
-    /// Where to sample the model
+    /// Processor that samples the model
     #[arg(long, value_enum, default_value_t = Options::default().backend, help_heading = "Machine")]
     backend: Backend,
-    /// How a GPU samples it
+    /// Method by which a GPU samples it
     #[arg(long, value_enum, default_value_t = Options::default().gpu_method, help_heading = "Machine")]
     gpu_method: GpuMethod,
 }
@@ -334,7 +334,7 @@ enum InfillArg {
     Lattice,
 }
 
-/// What to plan with, from the command line and a file.
+/// Options and choices of reading, from the command line and a file.
 pub struct Settings {
     pub options: Options,
     pub reading: Reading,

@@ -21,15 +21,15 @@ use crate::watch::{is_stopped, stop_on_interrupt};
 /// Bytes of models that may be in work at a time. A larger model is in work alone.
 const BYTES_IN_WORK: u64 = 64 << 20;
 
-/// What is told of a model of a batch.
+/// Result for a model of a batch.
 pub trait Told: Serialize + Send {
     /// A line for people, without the model's name.
     fn line(&self) -> String;
-    /// What they should know although it worked.
+    /// Warnings about a model that was processed.
     fn warnings(&self) -> Vec<Warning>;
 }
 
-/// What a batch prints of a model as JSON: one line.
+/// JSON that a batch prints for a model: one line.
 #[derive(Serialize, schemars::JsonSchema)]
 pub struct BatchLine<T> {
     /// Path of the model, as it was given.
@@ -37,16 +37,16 @@ pub struct BatchLine<T> {
     /// Path of its print file, if one was written.
     #[serde(skip_serializing_if = "Option::is_none")]
     output: Option<String>,
-    /// What became of it.
+    /// Its result.
     #[serde(flatten)]
     outcome: Outcome<T>,
 }
 
-/// What became of a model of a batch.
+/// Result of a model of a batch.
 #[derive(Serialize, schemars::JsonSchema)]
 #[serde(rename_all = "lowercase")]
 enum Outcome<T> {
-    /// What the command prints of a single model.
+    /// The report that the command prints for a single model.
     Report(T),
     /// Why there is none.
     Error(Problem),
@@ -58,15 +58,15 @@ pub struct Batch<'a> {
     /// The print file of each, if any are written.
     pub outputs: Vec<PathBuf>,
     pub is_json: bool,
-    /// How many models may be in work at a time.
+    /// Greatest number of models in work at a time.
     pub workers: usize,
 }
 
-/// How a model's work reports its progress.
+/// Progress callback of a model's work.
 pub type Progress<'a> = dyn FnMut(Stage, f64) -> ControlFlow<()> + 'a;
 
 impl Batch<'_> {
-    /// How many models are in work at a time.
+    /// Number of models in work at a time.
     pub fn at_a_time(&self) -> usize {
         self.workers.clamp(1, self.models.len().max(1))
     }
@@ -201,7 +201,7 @@ impl Batch<'_> {
     }
 }
 
-/// What the workers share.
+/// State shared by the workers.
 struct Shared<'a> {
     /// The next model to take.
     next: AtomicUsize,
@@ -231,7 +231,7 @@ struct Room {
 }
 
 impl Room {
-    /// Waits until there is room for so many bytes, or nothing else is in work.
+    /// Waits until there is room for `bytes`, or nothing else is in work.
     fn take(&self, bytes: u64) -> Taken<'_> {
         let taken = self.taken.lock().unwrap_or_else(PoisonError::into_inner);
         let is_full = |taken: &mut u64| *taken > 0 && *taken + bytes > BYTES_IN_WORK;
@@ -261,7 +261,7 @@ impl Drop for Taken<'_> {
     }
 }
 
-/// How many models to work on at a time: as many as there are processors.
+/// Number of models to work on at a time: one per processor.
 pub fn workers() -> usize {
     thread::available_parallelism().map_or(1, usize::from)
 }

@@ -1,4 +1,4 @@
-//! How much memory and processor time a command may take.
+//! Bounds of a command's memory and processor time.
 
 #[cfg(target_os = "linux")]
 use std::sync::OnceLock;
@@ -15,7 +15,8 @@ use crate::watch::memory_taken_bytes;
 /// Bounds of a command.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct Budget {
-    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found anew, and files stay the same
+    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found again in each pass, and
+    /// files stay the same
     #[arg(long, value_name = "SIZE")]
     max_memory: Option<ByteSize>,
     /// Take this much processor time at most, in seconds of all cores together
@@ -32,7 +33,7 @@ impl Budget {
         }
     }
 
-    /// What is asked for, or what the system leaves if that is less.
+    /// The bound on the command line, or the system's if that is less.
     fn memory_bytes(&self) -> Option<u64> {
         let asked = self.max_memory.map(|ByteSize(bytes)| bytes);
         asked.into_iter().chain(address_bytes()).min()

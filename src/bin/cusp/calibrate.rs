@@ -22,7 +22,7 @@ pub enum Calibrating {
     Layers {
         #[command(flatten)]
         target: Target,
-        /// Where to write the print file
+        /// Print file to write
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
         /// Print one JSON object
@@ -39,7 +39,7 @@ pub enum Calibrating {
         exposures: Vec<f64>,
         #[command(flatten)]
         target: Target,
-        /// Where to write the print file
+        /// Print file to write
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
         /// Print one JSON object
@@ -54,7 +54,7 @@ pub enum Calibrating {
         /// Resin file to start from
         #[arg(long, value_name = "FILE")]
         resin: Option<PathBuf>,
-        /// Where to write the resin file
+        /// Resin file to write
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
         /// Print one JSON object

@@ -13,7 +13,7 @@ use toml::de::{DeTable, DeValue, Deserializer};
 use crate::failure::{Failure, in_file};
 use crate::files::{printer_choice, read_resin};
 
-/// What a file of settings says; the rest has its defaults.
+/// Contents of a file of settings; defaults for the rest.
 #[derive(Default)]
 pub struct SettingsFile {
     pub options: Options,

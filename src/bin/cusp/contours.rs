@@ -60,7 +60,7 @@ pub fn contours(contouring: &Contouring) -> Result<(), Failure> {
         printing, output, ..
     } = contouring;
     printing.check("contours");
-    // What cannot be written is said before anything is planned.
+    // Outputs that cannot be written are reported before anything is planned.
     let alone = Output::new(output, printing.first(), "model")?;
     let mut job = printing.read("contours", &Budget::default())?;
     stop_on_interrupt();

@@ -22,7 +22,7 @@ use crate::watch::stop_on_interrupt;
 /// A print file, and what to make of it.
 #[derive(Args)]
 pub struct Converting {
-    /// Print file to read, whoever wrote it; - is standard input
+    /// Print file to read, from any program; - is standard input
     #[arg(value_name = "IN")]
     input: PathBuf,
     /// Print file to write; an existing file is replaced only once the new one is complete; - is standard output

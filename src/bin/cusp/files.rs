@@ -238,7 +238,7 @@ impl<'a> Output<'a> {
 /// Writes to a file that is not in its place yet, or to standard output.
 pub type Writer = BufWriter<Sink>;
 
-/// Where an output goes first.
+/// First destination of an output.
 pub enum Sink {
     File(Unfinished),
     Standard(io::Stdout),

@@ -22,10 +22,10 @@ pub struct Inspecting {
     /// Print one JSON object, with the values of every layer
     #[arg(long)]
     pub json: bool,
-    /// Write the mask of this layer as well, as it is stored; the first is 1
+    /// Write the mask of this layer as well, as stored; the first is 1
     #[arg(long, value_name = "N", requires = "output", value_parser = clap::value_parser!(u32).range(1..))]
     layer: Option<u32>,
-    /// Where to write the mask, a PNG; - is standard output
+    /// PNG to write the mask to; - is standard output
     #[arg(short, long, value_name = "FILE", requires = "layer")]
     output: Option<PathBuf>,
 }

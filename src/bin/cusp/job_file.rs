@@ -18,13 +18,13 @@ use crate::files::{Reading, WeightsFile, read_json};
 pub struct JobFile {
     /// The models.
     pub models: Vec<JobModel>,
-    /// What holds for all of them: the names that reports have under `options`.
+    /// Options of all models: the names that reports have under `options`.
     #[serde(default)]
     pub options: Options,
-    /// How to arrange the copies.
+    /// Options for arranging the copies.
     #[serde(default)]
     pub arranging: Arranging,
-    /// Where each copy stands. If empty, copies are arranged.
+    /// Place of each copy. If empty, copies are arranged.
     #[serde(default)]
     pub placements: Vec<Placement>,
 }

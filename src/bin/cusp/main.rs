@@ -71,7 +71,7 @@ enum Command {
     Slice {
         #[command(flatten)]
         slicing: Slicing,
-        /// Where to write the print file; an existing file is replaced only once the new one is complete. In a folder each model
+        /// Print file to write; an existing file is replaced only once the new one is complete. In a folder each model
         /// has a print file of its own name; - is standard output
         #[arg(short, long, value_name = "FILE|FOLDER/")]
         output: PathBuf,
@@ -116,23 +116,23 @@ enum Command {
     /// Copies are arranged on plates, and share the time that a plate takes.
     #[command(allow_negative_numbers = true)]
     Price(Pricing),
-    /// Recompute a plan, and check that it matches and keeps its tolerance; with --limits and --prices, that it can be printed, and
-    /// for what price
+    /// Recompute a plan, and check that it matches and keeps its tolerance; with --limits and --prices, that it can be
+    /// printed, and its price
     Verify(Verifying),
-    /// Measure how far what a print file prints is from the model, and the model from it
+    /// Measure the distances between the solid that a print file prints and the model, both ways
     Simulate(Simulating),
     /// Write a print that measures a printer
     #[command(subcommand)]
     Calibrate(Calibrating),
-    /// Say what is in a print file, whoever wrote it, and whether it is whole
+    /// Show the contents of a print file from any program, and check that it is whole
     Inspect(Inspecting),
     /// Make a print file from another: the same layers and pixels, in another format or for another printer
     Convert(Converting),
-    /// Write the saliency of each facet, how much it stands out, as a file of weights
+    /// Write the saliency of each facet as a file of weights
     Saliency {
         /// Model: 3MF, OBJ or STL; - is standard input
         model: PathBuf,
-        /// Where to write the weights; - is standard output
+        /// File of weights to write; - is standard output
         #[arg(short, long, value_name = "FILE")]
         output: PathBuf,
         /// Print one JSON object
@@ -156,7 +156,7 @@ enum Command {
         #[arg(long)]
         json: bool,
     },
-    /// Print the JSON Schema of what a command prints, or of a file that it reads
+    /// Print the JSON Schema of a command's report, or of a file that it reads
     Schema {
         /// Name of the report or of the file
         #[arg(value_parser = schemas::schema_name(), required_unless_present = "output")]
@@ -173,7 +173,7 @@ enum Command {
     },
     /// Print the manual page, or write those of all commands to a folder
     Man {
-        /// Where to write cusp.1, cusp-slice.1 and the others
+        /// Folder for cusp.1, cusp-slice.1 and the others
         #[arg(short, long, value_name = "FOLDER")]
         output: Option<PathBuf>,
     },

@@ -38,10 +38,10 @@ pub struct Orienting {
     /// Weight of the cost against the quality, 0 to 1
     #[arg(long, value_name = "A", default_value_t = SearchOptions::default().alpha, value_parser = fraction, help_heading = "Search")]
     alpha: f64,
-    /// What counts as cost
+    /// Measure of cost
     #[arg(long, value_enum, default_value_t = SearchOptions::default().cost, help_heading = "Search")]
     cost: Cost,
-    /// What counts as quality; less is better
+    /// Measure of quality; less is better
     #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
     quality: Quality,
     /// Exclude orientations with a larger area that needs support, in mm²
@@ -56,7 +56,7 @@ pub struct Orienting {
     /// Write the model in the Kth best orientation to -o; for a single model
     #[arg(long, value_name = "K", requires = "output", conflicts_with = "shard", value_parser = clap::value_parser!(u32).range(1..=3), help_heading = "Search")]
     apply: Option<u32>,
-    /// Where to write the oriented model
+    /// Model file to write, in that orientation
     #[arg(
         short,
         long,
@@ -109,7 +109,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
         target,
     };
     stop_on_interrupt();
-    // What a shard measured is for a program, too.
+    // The result of a shard is for a program, too.
     let is_json = orienting.json || orienting.shard.is_some();
     let mut is_any_bad = false;
     for model in &orienting.models {
@@ -141,7 +141,7 @@ pub fn orient(orienting: &Orienting) -> Result<(), Failure> {
     Ok(())
 }
 
-/// What all models of a batch share.
+/// Options shared by all models of a batch.
 struct Task<'a> {
     options: Options,
     reading: Reading,

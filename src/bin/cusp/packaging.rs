@@ -1,4 +1,4 @@
-//! What packagers install beside the program: completions and manual pages, made from its arguments.
+//! Files that packagers install with the program: completions and manual pages, made from its arguments.
 
 use std::io::Write as _;
 use std::path::{Path, PathBuf};

@@ -23,7 +23,7 @@ pub struct Plating {
     budget: Budget,
     #[command(flatten)]
     places: Places,
-    /// Where to write the job file, which `cusp slice` and `cusp plan` take in place of models
+    /// Job file to write, which `cusp slice` and `cusp plan` take in place of models
     #[arg(short, long, value_name = "FILE.json")]
     output: Option<PathBuf>,
     /// Print the job file

@@ -30,13 +30,13 @@ pub struct Pricing {
     budget: Budget,
 }
 
-/// What `price` prints as JSON.
+/// JSON that `price` prints.
 #[derive(Serialize, schemars::JsonSchema)]
 pub struct Priced {
-    /// What all copies cost.
+    /// Price of all copies.
     #[serde(flatten)]
     price: Price,
-    /// What was priced: the copies of each model on each plate.
+    /// The priced items: the copies of each model on each plate.
     items: Vec<PriceItem>,
     /// Number of plates.
     plates: usize,

@@ -1,4 +1,5 @@
-//! Schemas of what `--json` prints and of the files that users write. `tests/interop/cluster/test_schemas.py` holds real output to them.
+//! Schemas of the JSON that `--json` prints and of the files that users write. `tests/interop/cluster/test_schemas.py`
+//! validates real output against them.
 
 use std::path::Path;
 use std::sync::Arc;
@@ -38,7 +39,7 @@ fn output<T: JsonSchema>() -> Value {
     generator().into_root_schema_for::<T>().to_value()
 }
 
-/// What users write, where fields have defaults.
+/// Schema of a file that users write, in which fields have defaults.
 fn input<T: JsonSchema>() -> Value {
     let settings = SchemaSettings::draft07().for_deserialize();
     settings

@@ -35,7 +35,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
         wrong_usage("slice", message);
     }
     check_json("slice", Some(output), slicing.json);
-    // What cannot be written is said before anything is planned.
+    // Outputs that cannot be written are reported before anything is planned.
     let [first, ..] = &*slicing.models else {
         return Ok(());
     };

@@ -43,7 +43,7 @@ pub fn print_json(value: &impl Serialize) -> Result<(), String> {
     print_json_line(&to_json(value)?)
 }
 
-/// The same of what [`to_json`] has made.
+/// Prints a line of JSON from [`to_json`], likewise.
 pub fn print_json_line(json: &str) -> Result<(), String> {
     write_line(json).map_err(|error| format!("standard output: {error}"))
 }

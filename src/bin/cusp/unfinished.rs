@@ -1,6 +1,7 @@
 //! Files that are not complete yet.
 //!
-//! Where the system can, they have no name until they are, so that nothing is left of them however the process ends.
+//! If the system supports it, they have no name until they are complete, so that nothing is left of them however the
+//! process ends.
 
 #[cfg(unix)]
 use std::fs;
@@ -19,7 +20,7 @@ use crate::watch::note_temporary;
 #[cfg(unix)]
 const USUAL_MODE: u32 = 0o666;
 
-/// Where the system lists open files.
+/// Folder in which the system lists open files.
 #[cfg(target_os = "linux")]
 const DESCRIPTORS: &str = "/proc/self/fd";
 

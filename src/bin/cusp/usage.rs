@@ -1,4 +1,4 @@
-//! What is on the command line, and errors of usage that clap's attributes cannot express.
+//! The command line as given, and errors of usage that clap's attributes cannot express.
 
 use std::collections::HashSet;
 use std::path::Path;
@@ -60,7 +60,7 @@ impl Args for Given {
 pub fn exit(error: &clap::Error) -> ! {
     if error.use_stderr() && IS_JSON.load(Ordering::Relaxed) {
         let text = error.render().to_string();
-        // What follows an empty line is for people: tips and the usage.
+        // The text after an empty line is for people: tips and the usage.
         let reason = text.split("\n\n").next().unwrap_or_default();
         let words: Vec<&str> = reason.split_whitespace().collect();
         let message = words.join(" ");

@@ -62,7 +62,7 @@ pub struct Verifying {
     pub json: bool,
 }
 
-/// What a shop accepts, and what it asks.
+/// Limits and prices of a shop.
 struct Shop<'a> {
     limits: Option<Limits>,
     order: Option<Order<'a>>,
@@ -100,7 +100,7 @@ struct VerifiedPlate {
     resin_ml: f64,
     print_is_same: bool,
     warnings: Vec<Warning>,
-    /// What will fail when it is printed, if limits are given.
+    /// Printability of the plate, if limits are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     printability: Option<PlatePrintability>,
 }
@@ -114,7 +114,7 @@ pub struct Verified {
     resin_ml: f64,
     /// The plates that the plan is of.
     plates: Vec<VerifiedPlate>,
-    /// What all of their copies cost, if prices are given.
+    /// Price of all of their copies, if prices are given.
     #[serde(skip_serializing_if = "Option::is_none")]
     price: Option<Price>,
 }

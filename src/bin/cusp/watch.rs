@@ -22,12 +22,12 @@ static INTERRUPTED: LazyLock<Arc<AtomicBool>> = LazyLock::new(Arc::default);
 static EXCEEDED: OnceLock<Error> = OnceLock::new();
 /// The fraction of the work that is done, as bits of a double.
 static DONE: AtomicU64 = AtomicU64::new(0);
-/// Files that are written beside their places.
+/// Temporary files that will replace others.
 static TEMPORARY: Mutex<Vec<PathBuf>> = Mutex::new(Vec::new());
 
-/// How often to look.
+/// Interval between checks.
 const PERIOD: Duration = Duration::from_millis(20);
-/// How long a stage may take until it reports progress, and the command until it has tidied up after that.
+/// Longest time that a stage may take until it reports progress, and the command until it has tidied up after that.
 const GRACE: Duration = Duration::from_millis(70);
 
 /// From here on, an interrupt sets a flag instead of killing the process, so that temporary files are removed.
@@ -106,7 +106,7 @@ fn exceeded(cpu_time_s: Option<f64>, memory_bytes: Option<u64>) -> Option<Error>
     }
     if let Some(allowed_bytes) = memory_bytes {
         let [_, needed_bytes] = memory_taken_bytes();
-        // What the library estimates is not exact.
+        // The library's estimate is not exact.
         if needed_bytes > allowed_bytes + allowed_bytes / 8 + (64 << 20) {
             return Some(Error::MemoryBound {
                 needed_bytes,

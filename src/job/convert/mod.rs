@@ -22,7 +22,7 @@ use crate::progress::Progress;
 use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
 
-/// What to make of a print file. What is absent stays as it is.
+/// Changes to a print file. Absent values stay the same.
 #[derive(Debug, Clone, PartialEq, Default)]
 pub struct Target {
     /// The format; the printer's if absent.
@@ -41,7 +41,7 @@ pub struct Conversion<'a> {
     format: Format,
     printer: Option<Arc<Printer>>,
     screen: Screen,
-    /// How stored masks become masks seen from above.
+    /// Transformation from stored masks to masks seen from above.
     flips: Flips,
     layers: Vec<Layer>,
     resin: Resin,
@@ -280,7 +280,7 @@ impl<'a> Conversion<'a> {
         archive::print_time_s(&self.resin, &self.layers)
     }
 
-    /// What the new file does not have of the old one.
+    /// Contents of the old file that the new one lacks.
     pub fn losses(&self) -> &[Loss] {
         &self.losses
     }
@@ -349,7 +349,7 @@ impl<'a> Conversion<'a> {
         Look::from_picture([columns, rows], self.screen.pitch_mm, brightness)
     }
 
-    /// What a zip of masks says of a print that no plan was made for.
+    /// The manifest in a zip of masks, for a print without a plan.
     fn manifest(&self) -> Result<Manifest, serde_json::Error> {
         let screen = &self.screen;
         let manifest = json!({

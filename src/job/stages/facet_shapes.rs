@@ -8,7 +8,7 @@ use crate::profile::normal_cones::{Cone, cones};
 use crate::profile::shapes::Shapes;
 use crate::profile::{Metric, section};
 
-/// What some metrics need besides facets by bins. The other lists stay empty.
+/// Inputs of some metrics besides facets by bins. The other lists stay empty.
 #[derive(Debug, Default)]
 pub struct Extra {
     /// Areas of sections.
@@ -18,7 +18,7 @@ pub struct Extra {
 }
 
 impl Extra {
-    /// What a metric needs, of a mesh that stands on the plate.
+    /// The inputs of a metric, for a mesh that stands on the plate.
     pub fn of(mesh: &Mesh, metric: Metric, bins: Bins) -> Self {
         let mut extra = Self::default();
         if metric.needs_areas() {

@@ -1,4 +1,4 @@
-//! How much memory a job takes, and whether it takes less when hits are found anew instead of kept.
+//! Memory of a job, and the choice between hits that are kept and hits that each pass finds again.
 
 use crate::grid::Grid;
 use crate::job::Error;
@@ -6,39 +6,39 @@ use crate::ldi::{Anew, Hit};
 use crate::mask::{Masks, Samples};
 use crate::model::Mesh;
 
-/// What a job may take.
+/// Bound of a job's memory.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Memory {
     /// Bytes in all.
     pub bytes: u64,
     /// Models that share them equally.
     pub models: usize,
-    /// Leave to find hits anew, as far as they do not fit.
+    /// Permission to find hits again if they do not fit.
     pub leave: Anew,
 }
 
 /// A bound that an LDI with its masks would exceed.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(crate) struct Bound {
-    /// What the job would take with them.
+    /// Bytes that the job would take with them.
     needed_bytes: u64,
     pub allowed: Memory,
-    /// What masks may take at a time without them.
+    /// Bytes that masks may take at a time without them.
     pub slab_bytes: u64,
 }
 
 /// Bytes per facet of reading, measuring and planning, which hold the mesh several times over.
 const FACET_BYTES: u64 = 145;
-/// Bytes per facet of what is left of that when masks are made.
+/// Bytes per facet that remain of that when masks are made.
 const KEPT_FACET_BYTES: u64 = 80;
-/// Bytes of the program and of what depends on the height alone.
+/// Bytes of the program and of data that depends on the height alone.
 const PROGRAM_BYTES: u64 = 16 << 20;
 /// Bytes of an offset.
 const OFFSET_BYTES: u64 = 4;
 /// Bytes that masks of a slab take at least.
 const LEAST_SLAB_BYTES: u64 = 1 << 20;
 
-/// How many hits rays find, nearly.
+/// Estimate of the number of hits: the projected area of all facets, in pixels.
 pub(in crate::job) fn hits_of(mesh: &Mesh, rays: &Grid) -> f64 {
     let seen_mm2 = (0..mesh.facets.len()).map(|facet| mesh.projected_mm2(facet));
     seen_mm2.sum::<f64>() / rays.pixel_mm2()

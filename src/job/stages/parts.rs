@@ -26,7 +26,7 @@ pub(crate) struct Resolved {
     pub output: Output,
 }
 
-/// What the LDI depends on, besides the model.
+/// Inputs of the LDI, besides the model.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Sampling {
     pub pose: Pose,
@@ -40,7 +40,7 @@ pub(crate) struct Sampling {
     pub gpu_method: GpuMethod,
 }
 
-/// How the masks' pixels are laid out.
+/// Layout of the masks' pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Raster {
     /// This many along the model's longer horizontal side.
@@ -54,7 +54,7 @@ pub(crate) enum Raster {
     },
 }
 
-/// What the plan depends on, besides the rays.
+/// Inputs of the plan, besides the rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Layering {
     pub bin_mm: f64,
@@ -71,7 +71,7 @@ pub(crate) struct Layering {
     pub saliency: bool,
     pub weight_min: f64,
     pub resin: Resin,
-    /// How far the print grows beyond its masks: what the resin and the printer add up to.
+    /// Growth of the print beyond its masks: that of the resin and the printer together.
     pub growth: Growth,
     /// The least width that making up for it leaves; 0 for none.
     pub min_feature_mm: f64,
@@ -97,13 +97,13 @@ pub(crate) enum Thicknesses {
     Any,
     /// These, in millimetres.
     Of(Vec<f64>),
-    /// At most so many distinct ones.
+    /// At most this many distinct ones.
     AtMost(usize),
-    /// Changing by at most so many millimetres from layer to layer.
+    /// Changing by at most this many millimetres from layer to layer.
     Gradual(f64),
 }
 
-/// What the print file depends on, besides the plan and the rays.
+/// Inputs of the print file, besides the plan and the rays.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) struct Output {
     pub format: Format,
@@ -113,7 +113,7 @@ pub(crate) struct Output {
     pub filament: Option<Filament>,
 }
 
-/// What a file for a slicer of filament printers depends on, besides plan and model.
+/// Inputs of a file for a slicer of filament printers, besides plan and model.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) struct Filament {
     pub slicer: FilamentSlicer,
@@ -187,7 +187,7 @@ impl Sampling {
         weights.filter(|_| spare.any(|it| it))
     }
 
-    /// How far supports lift the model above the plate.
+    /// Distance by which supports lift the model above the plate.
     pub fn lift_mm(&self) -> f64 {
         let supports = self.supports.as_ref();
         supports.map_or(0.0, |supports| supports.profile().lift_mm)
@@ -230,7 +230,7 @@ impl Layering {
         }
     }
 
-    /// What plans minimize.
+    /// Quantity that plans minimize.
     pub fn objective(&self) -> Objective<'_> {
         match self.minimize {
             Minimize::Layers => Objective::Layers,

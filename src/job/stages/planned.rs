@@ -25,7 +25,7 @@ pub struct PlannedModel {
     pub turns: u32,
     /// Its own tolerance, in place of the plan's.
     pub tolerance: Option<f64>,
-    /// How often it is printed.
+    /// Number of copies.
     pub copies: usize,
 }
 
@@ -54,7 +54,7 @@ impl PlannedModel {
 pub struct Planned {
     /// The models; there is at least one.
     pub models: Vec<PlannedModel>,
-    /// What it was planned with.
+    /// The options with which it was planned.
     pub layering: Layering,
     pub plan: Plan,
     pub findings: Findings,
@@ -178,7 +178,7 @@ impl Planned {
         })
     }
 
-    /// What the masks make up for, if anything.
+    /// Compensations in the masks, if there are any.
     fn shrinking(&self) -> Option<Shrinking> {
         let Layering { growth, resin, .. } = &self.layering;
         (!growth.is_none()).then(|| Shrinking {

@@ -1,4 +1,4 @@
-//! What planners get of the models of a plan: errors, tolerance and snap planes; and what is known about a plan.
+//! Inputs of planners from the models of a plan: errors, tolerance and snap planes; and findings about a plan.
 
 use std::borrow::Cow;
 
@@ -41,7 +41,7 @@ pub struct Planning<'a> {
     tolerance: Result<f64, PlanError>,
 }
 
-/// What is known about a plan besides its layers.
+/// Findings about a plan besides its layers.
 #[derive(Debug)]
 pub struct Findings {
     pub snapped_mm: Vec<f64>,
@@ -234,7 +234,7 @@ impl<'a> Planning<'a> {
                 };
                 let layer_mm = bins.boundary_mm(units * limits.unit(bins)?);
                 match self.uniform(layer_mm) {
-                    // A model lower than half a layer is one layer here, as it is for the optimal planner.
+                    // A model less than half a layer high is one layer here, as it is for the optimal planner.
                     Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
                         bins,
                         boundaries: vec![0, bins.count as u32],

@@ -24,9 +24,9 @@ pub struct Prepared {
     pub mesh: Mesh,
     /// The box of all that is printed.
     pub printed: Bounds,
-    /// What was left out of it, if anything.
+    /// Its void, if it is hollowed.
     pub hollowed: Option<Hollowed>,
-    /// What holds it, if it is supported; its facets are in the mesh.
+    /// Its supports, if it has any; their facets are in the mesh.
     pub supports: Option<Supports>,
     pub warnings: Vec<Warning>,
     /// The hollow model without its supports, if it has both: a change of supports hollows nothing again.
@@ -41,7 +41,7 @@ struct Unsupported {
     warnings: Vec<Warning>,
 }
 
-/// What decides about it.
+/// The options that decide its preparation.
 #[derive(Debug, Clone, PartialEq)]
 struct Preparing {
     pose: Pose,
@@ -65,14 +65,14 @@ pub struct Hollowed {
     pub resolution_mm: f64,
 }
 
-/// What holds a supported model.
+/// The supports of a model.
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Supported {
     /// Volume of the supports outside the model.
     pub support_ml: f64,
-    /// How far the model is lifted above the plate.
+    /// Distance by which the model is lifted above the plate.
     pub lift_mm: f64,
     /// The points that are supported, from the highest down. None of plates with several models, as of drain holes.
     pub points: Vec<SupportPoint>,
@@ -80,7 +80,7 @@ pub struct Supported {
     pub unreached: Vec<SupportPoint>,
     /// Supports that stand on the model, where they leave a mark.
     pub on_model: usize,
-    /// Where pillars, branches and braces join, from the model's lowest point.
+    /// Points where pillars, branches and braces join, from the model's lowest point.
     #[serde(skip)]
     pub joints_mm: Vec<[f64; 3]>,
 }
@@ -103,7 +103,7 @@ impl Prepared {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
         let hollowed_alike = last.and_then(|last| last.unsupported(sampling, spared));
-        // Where hollowing ends, of both.
+        // Share of the progress that belongs to hollowing.
         let between = match (&sampling.hollow, &sampling.supports) {
             (Some(_), Some(_)) if hollowed_alike.is_none() => 0.5,
             (Some(_), None) if hollowed_alike.is_none() => 1.0,
@@ -151,7 +151,7 @@ impl Prepared {
         })
     }
 
-    /// What it was before it was supported, if that is what these options make.
+    /// The model before it was supported, if these options make the same.
     fn unsupported(&self, sampling: &Sampling, spared: Option<&[f32]>) -> Option<Arc<Unsupported>> {
         let is_alike = self.of.pose == sampling.pose
             && self.of.hollow == sampling.hollow

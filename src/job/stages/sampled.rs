@@ -22,7 +22,7 @@ use crate::warning::Warning;
 /// The model on the plate and its rays. Immutable and shared, so its rays never change.
 #[derive(Debug)]
 pub struct Sampled {
-    /// What it was sampled with.
+    /// The options with which it was sampled.
     pub sampling: Sampling,
     pub prepared: Arc<Prepared>,
     pub height_mm: f64,
@@ -32,7 +32,7 @@ pub struct Sampled {
     pub rays: Grid,
     hits: Hits,
     pub survey: Survey,
-    /// What holds it, if it is supported.
+    /// Its supports, if it has any.
     pub supported: Option<Supported>,
     /// The GPU that was used.
     pub gpu: Option<UsedGpu>,
@@ -74,7 +74,7 @@ pub struct Sampler {
     gpu: Option<Result<Gpu, LdiError>>,
     /// True if that GPU is one that the caller opened, which is used at every size.
     is_given: bool,
-    /// What may be taken, if that is bounded.
+    /// The bound of memory, if there is one.
     memory: Option<Memory>,
     /// Seconds of processor time that a job may take, if that is bounded.
     #[cfg(not(target_arch = "wasm32"))]
@@ -99,7 +99,7 @@ impl Sampler {
         self.cpu_time_s = Some(seconds);
     }
 
-    /// What was set by [`Self::set_cpu_time`], which holds for the other stages of a job as well.
+    /// The bound set by [`Self::set_cpu_time`], which holds for the other stages of a job as well.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn cpu_time_s(&self) -> Option<f64> {
         self.cpu_time_s
@@ -197,7 +197,7 @@ impl Sampler {
         })
     }
 
-    /// Whether to try a GPU at this size.
+    /// Returns true if a GPU is to be tried at this size.
     fn wants_gpu(&self, backend: Backend, facets: usize, rays: usize) -> bool {
         match backend {
             Backend::Auto if self.is_given => true,
@@ -267,7 +267,7 @@ impl Sampled {
         }
     }
 
-    /// What was sampled: on the plate, with voids and supports.
+    /// The sampled mesh: on the plate, with voids and supports.
     pub fn mesh(&self) -> &Mesh {
         &self.prepared.mesh
     }
@@ -277,7 +277,7 @@ impl Sampled {
         self.sampling == *sampling && self.prepared.is_of(sampling, spared)
     }
 
-    /// What supports hold of surfaces that these limits call too flat.
+    /// Contacts and joints of the supports, with the reach of contacts on surfaces that these limits call too flat.
     pub fn held(&self, limits: &Limits) -> Held {
         let (Some(supported), Some(supporting)) = (&self.supported, &self.sampling.supports) else {
             return Held::default();

@@ -1,5 +1,5 @@
-//! How much work a job is, before it is done. Estimates divide what is cheap to count by a rate that no processor exceeds, so whatever is
-//! refused would indeed have taken too long.
+//! Estimates of a job's work, made before it. They divide counts that are cheap to find by a rate that no processor
+//! exceeds, so a job that is refused would indeed have taken too long.
 
 use super::memory::hits_of;
 use super::parts::{Layering, Target, Thicknesses};
@@ -55,8 +55,8 @@ fn check(work: Work, needed_s: f64, allowed_s: f64) -> Result<(), Error> {
     })
 }
 
-/// How often a planner measures the error of a layer: bins times thicknesses, unless the fewest layers are wanted under a metric
-/// that adds up.
+/// Number of layer errors that a planner measures: bins times thicknesses, unless the fewest layers are wanted under a
+/// metric that adds up.
 fn layers_to_measure(bins: Bins, layering: &Layering) -> f64 {
     let limits = layering.limits(0.0);
     let (Ok(unit), Ok(thickness)) = (
@@ -80,7 +80,7 @@ fn layers_to_measure(bins: Bins, layering: &Layering) -> f64 {
     } else {
         (planes - thicknesses / 2.0) * thicknesses
     };
-    // What a layer costs depends on how many bottom layers are below it.
+    // The time of a layer depends on the number of bottom layers below it.
     let of_bottom = if is_by_time {
         layering.resin.bottom_layers.min(MOST_BOTTOM_LAYERS) as f64 + 1.0
     } else {
