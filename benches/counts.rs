@@ -33,10 +33,10 @@ use stats_alloc::{INSTRUMENTED_SYSTEM, Region, StatsAlloc};
 #[global_allocator]
 static ALLOCATOR: &StatsAlloc<System> = &INSTRUMENTED_SYSTEM;
 
-/// What is counted of a job. What it needs has been made before.
+/// The counted part of a job; its inputs have been made before.
 type Work = Box<dyn FnOnce()>;
 
-/// A job: its name, and what makes it ready.
+/// A job: its name, and a function that makes its inputs.
 type Job = (&'static str, fn() -> Work);
 
 const JOBS: [Job; 9] = [
@@ -108,7 +108,7 @@ fn sample() -> Work {
     })
 }
 
-/// The profile and the plan: the rays are there, and finer bins need both anew.
+/// The profile and the plan: the rays exist, and finer bins need both again.
 fn plan() -> Work {
     let mut slicer = planned(&options());
     let finer = Options {
@@ -178,7 +178,7 @@ fn supporting() -> Work {
     })
 }
 
-/// Where valgrind counts: it knows this function by its name.
+/// The function that valgrind counts, by its name.
 #[inline(never)]
 fn counted(work: Work) {
     work();
@@ -196,7 +196,7 @@ fn allocations(ready: fn() -> Work) -> Value {
     })
 }
 
-/// How long print files of the table are, in bytes, by format. Layers are uniform, which every format takes.
+/// Sizes of the table's print files in bytes, by format. Layers are uniform, which every format takes.
 fn file_bytes() -> Map<String, Value> {
     let bytes = |format| {
         let mut slicer = planned(&Options {

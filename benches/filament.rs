@@ -1,4 +1,5 @@
-//! `cargo xtask bench filament MODEL=HEIGHT...`: layers for a filament printer beside the adaptive layers of `PrusaSlicer`, which its
+//! `cargo xtask bench filament MODEL=HEIGHT...`: layers for a filament printer compared with the adaptive layers of
+//! `PrusaSlicer`, which its
 //! command line has no switch for. Its planner is written again here from its description in docs/filament.md.
 //!
 //! Prints a table: for each model and quality, layers and largest cusp of that planner, the layers that Cusp needs for that cusp, and

@@ -29,7 +29,7 @@ const SIDES: [u32; 3] = [512, 2048, 8192];
 /// The share of its progress at which a GPU's result has been read.
 const READ: f64 = 0.8;
 
-/// How long sampling took on a GPU, in seconds.
+/// Times of sampling on a GPU, in seconds.
 #[derive(Clone, Copy)]
 struct Times {
     on_gpu: f64,

@@ -1,7 +1,7 @@
-//! How long hollowing takes: `cargo xtask bench hollow [MODEL.stl …]`.
+//! Time of hollowing: `cargo xtask bench hollow [MODEL.stl …]`.
 //!
 //! Prints a table in Markdown: a ball and each model named, 60 mm high, with walls of 1, 2 and 4 mm and cavities of at least 2 mm. Times
-//! are the minimum of several runs. Memory is the most that is held beside the model.
+//! are the minimum of several runs. Memory is the peak without that of the model.
 
 #[path = "common/mod.rs"]
 #[expect(dead_code, reason = "other benches use the rest")]

@@ -1,8 +1,8 @@
-//! How long the checks of printability take, and how much memory: `cargo xtask bench inspect [MODEL.stl …]`.
+//! Time and memory of the checks of printability: `cargo xtask bench inspect [MODEL.stl …]`.
 //!
 //! Prints a table in Markdown: a ball, 10,000 struts and each model named, 60 mm high, on more and more pixels, and the ball on a 12K screen;
 //! all in 800 layers. Below it stands how time grows with hits. Times are the minimum of several runs, from finished masks. Memory is the most that the
-//! checks hold, beside that of the LDI.
+//! checks hold, without that of the LDI.
 
 #[path = "common/mod.rs"]
 #[expect(dead_code, reason = "other benches use the rest")]

@@ -1,4 +1,4 @@
-//! How long the orientation search takes, by facets, directions, rays and threads: `cargo xtask bench orient [MODEL.stl …]`.
+//! Time of the orientation search, by facets, directions, rays and threads: `cargo xtask bench orient [MODEL.stl …]`.
 //!
 //! Prints tables in Markdown. Models are 60 mm high, bins 2 µm. Times are the minimum of several whole searches, refinement
 //! included; the growth exponents are those of time against facets, and against directions, fitted over all rows.

@@ -1,4 +1,4 @@
-//! How long profiles and plans take: `cargo xtask bench plan`.
+//! Time of profiles and plans: `cargo xtask bench plan`.
 //!
 //! Prints tables in Markdown. Times are the minimum of several runs, on one core.
 

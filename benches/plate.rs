@@ -1,4 +1,4 @@
-//! How long plates of several models take, and how full they are: `cargo xtask bench plate [MODEL.stl …]`.
+//! Time and fill of plates of several models: `cargo xtask bench plate [MODEL.stl …]`.
 //!
 //! Prints tables in Markdown: copies of one model against one, forty different models, and shadows against boxes for the models
 //! named. Times are the minimum of several runs.

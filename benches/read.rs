@@ -1,4 +1,5 @@
-//! How long a model of a million facets takes to read, as STL, OBJ and 3MF, and with it the mesh: `cargo xtask bench read [FILE …]`.
+//! Time of reading a model of a million facets, as STL, OBJ and 3MF, and of making its mesh: `cargo xtask bench read
+//! [FILE …]`.
 //!
 //! With `--write FOLDER` it writes the three files instead, for other programs and for the browser.
 

@@ -1,4 +1,4 @@
-//! What print files of plans print, measured: `cargo xtask bench simulation MODEL.stl …`.
+//! Simulation of the print files of plans: `cargo xtask bench simulation MODEL.stl …`.
 //!
 //! For each model, 60 mm high at 2048 rays: layers, the bound that the plan promises, both simulated distances, and how long the
 //! simulation took, under the cusp height, the deviation, the greedy planner and uniform layers. All keep the same tolerance, 65 µm of

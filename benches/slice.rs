@@ -1,4 +1,4 @@
-//! How long `cusp slice` takes as a whole process, STL to print file:
+//! Time of `cusp slice` as a whole process, STL to print file:
 //! `cargo xtask bench slice [--format NAME|all] [--peer] [MODEL.stl …]`.
 //!
 //! A sphere of 40 mm and 80,000 facets on a 12K screen, in one format or in all; then each model named, 60 mm high, at 2048 pixels along

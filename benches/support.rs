@@ -1,8 +1,8 @@
-//! How long supports take, and what they weigh: `cargo xtask bench support [MODEL.stl …]`.
+//! Time and weight of supports: `cargo xtask bench support [MODEL.stl …]`.
 //!
-//! Prints tables in Markdown: a ball and each model named, 60 mm high, with supports of each strength, and what the search for an
-//! orientation estimates of them beside what is built. Times are the minimum of several runs. Volumes of the first table count what
-//! overlaps once for each body.
+//! Prints tables in Markdown: a ball and each model named, 60 mm high, with supports of each strength, and the
+//! estimates of the orientation search compared with the supports that are built. Times are the minimum of several
+//! runs. Volumes of the first table count overlaps once per body.
 
 #[path = "common/mod.rs"]
 #[expect(dead_code, reason = "other benches use the rest")]
@@ -124,7 +124,7 @@ fn estimates(models: &[(String, Mesh)]) {
     }
 }
 
-/// The median, the second least and the second largest of what is estimated, as a part of what is built.
+/// The median, the second least and the second largest ratio of the estimate to the supports that are built.
 fn spread(pairs: &[[f64; 2]]) -> String {
     let mut parts: Vec<f64> = pairs
         .iter()
@@ -135,7 +135,7 @@ fn spread(pairs: &[[f64; 2]]) -> String {
     format!("{median:.2}, {least:.2} to {most:.2}")
 }
 
-/// How alike both are ordered: Spearman's coefficient, 1 for the same order.
+/// Agreement of both orders: Spearman's coefficient, 1 for the same order.
 fn agreement(pairs: &[[f64; 2]]) -> f64 {
     let ranks = [0, 1].map(|side| {
         let rank = |pair: &[f64; 2]| pairs.iter().filter(|it| it[side] < pair[side]).count() as f64;

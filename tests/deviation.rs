@@ -155,8 +155,8 @@ fn to_polyline(point: DVec2, line: &[DVec2]) -> f64 {
     distances.fold(f64::INFINITY, f64::min)
 }
 
-/// No point of a stack is farther from the outline that it was cut from than the largest deviation of the two layers beside it. The
-/// outline goes up one bin after another, with a slope for each and level steps between.
+/// No point of a stack is farther from the outline that it was cut from than the largest deviation of the two adjacent
+/// layers. The outline goes up one bin after another, with a slope for each and level steps between.
 #[test]
 fn no_point_of_a_stack_is_farther_from_its_outline_than_the_deviation_says() {
     let mut random = fastrand::Rng::with_seed(73);

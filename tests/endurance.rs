@@ -8,7 +8,7 @@ use crate::common::{binary_stl, in_own_process, quiet, solids};
 
 /// Jobs, each of the next model in turn.
 const JOBS: usize = 1000;
-/// After so many jobs all that is made once exists.
+/// Number of jobs after which everything that is made once exists.
 const WARM: usize = 40;
 
 /// Memory in use, in bytes.

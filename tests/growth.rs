@@ -131,7 +131,7 @@ fn every_pixel_agrees_with_a_naive_erosion() {
         let mesh = on_plate(&triangles);
         let size = mesh.bounds().size();
         let pitch_mm = size.x.max(size.y) / 23.0;
-        // Narrow beside the model, so that growth meets the border of the screen.
+        // Narrow compared with the model, so that growth meets the border of the screen.
         let grid = Grid::plate(&mesh.bounds(), [29, 33], [pitch_mm, pitch_mm * 0.9]).unwrap();
         let plan = uniform_plan(size.z, 7.0);
         for (level, xy, z) in [
@@ -230,7 +230,7 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
     assert_eq!(sides, [90, 90, 92, 94, 96, 98, 98, 98, 98, 98]);
 }
 
-/// What `PrusaSlicer` does with whole layers: a pixel stays lit if it is lit in the n layers below as well.
+/// The rule of `PrusaSlicer`, in whole layers: a pixel stays lit if it is lit in the n layers below as well.
 #[test]
 fn raised_entries_are_those_of_counted_layers() {
     for (name, triangles) in solids::all() {

@@ -76,7 +76,7 @@ fn constants_that_stand_on_both_sides_agree() {
     assert_eq!(constant(&parse(FILL), "STEPS"), STEPS);
     let least = constant(&parse(PEEL), "LEAST");
     assert_eq!(constant(&parse(COLLECT), "LEAST"), least);
-    // The greatest half is kept for what lies behind all.
+    // The greatest half-precision number is reserved for the end behind all facets.
     let of_half = |half: u32| i64::from(half + (112 << 10));
     assert_eq!(least, of_half(0x400));
     assert_eq!(least + CELL_FACETS as i64, of_half(0x7bff));

@@ -345,8 +345,8 @@ fn sampling_stops_when_asked() {
     assert_eq!(calls, 2);
 }
 
-/// A cube of 10 mm with a void of 6 mm in its middle and a support of 2 mm through both. On the axis the support fills the
-/// void, beside it the void is empty, and the model alone has neither.
+/// A cube of 10 mm with a void of 6 mm in its middle and a support of 2 mm through both. On the axis the support fills
+/// the void, next to it the void is empty, and the model alone has neither.
 #[test]
 fn voids_are_left_out_of_the_model_and_supports_are_not() {
     let cube = |side_mm: f32, z_mm: f32| {

@@ -233,7 +233,7 @@ fn whatever_is_missing_or_flipped_the_mesh_is_closed_in_the_end() {
     }
 }
 
-/// The generalised winding number, by sums of solid angles: an oracle for what is inside.
+/// The generalised winding number, by sums of solid angles: an oracle of inside and outside.
 fn winding(triangles: impl Iterator<Item = [DVec3; 3]>, point: DVec3) -> f64 {
     let angles = triangles.map(|corners| {
         let [a, b, c] = corners.map(|corner| corner - point);

@@ -87,7 +87,7 @@ fn the_example_of_the_document_costs_what_it_says() {
     assert_eq!(price.total, said("total"));
     assert_eq!(price.written(price.total), "77.81");
     assert!(DOCUMENT.contains("77.81 €"));
-    // What is small costs the least that an order does.
+    // A small order costs the minimum.
     let price = example().price(&[item(1, 1.0, 3600.0)], None).unwrap();
     // 500 + 180 + 14.5 + 2.175, of which the last two are rounded alone.
     assert_eq!(amount(&price, PriceKind::Resin), 15);

@@ -4,14 +4,14 @@ use cusp_slicer::job::{Options, Planner};
 use cusp_slicer::quantity::QuantityError;
 use cusp_slicer::resin::Resin;
 
-/// What options are refused for.
+/// The sentence with which options are refused.
 fn refusal(set: impl FnOnce(&mut Options)) -> String {
     let mut options = Options::default();
     set(&mut options);
     options.check().unwrap_err().to_string()
 }
 
-/// What a resin is refused for.
+/// The sentence with which a resin is refused.
 fn resin_refusal(set: impl FnOnce(&mut Resin)) -> String {
     let mut resin = Resin::default();
     set(&mut resin);

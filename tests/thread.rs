@@ -6,7 +6,7 @@ use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options, Planner, Snap};
 use cusp_slicer::profile::{Metric, Source};
 
-/// What Wasserfall, Hendrich and Zhang measured on vertical walls.
+/// Measurement of Wasserfall, Hendrich and Zhang on vertical walls.
 const WALL: f64 = 0.184;
 const BIN_MM: f64 = 0.02;
 
@@ -80,8 +80,8 @@ fn densities_are_those_of_a_loop_over_facets_and_bins() {
     }
 }
 
-/// The error of a layer is the larger of that of the cusp and 0.184 of its thickness, as far as the surface is the same all the
-/// way through it.
+/// The error of a layer is the larger of that of the cusp and 0.184 of its thickness, if the surface is the same all
+/// the way through it.
 #[test]
 fn thick_layers_on_walls_are_limited_by_their_threads() {
     let mut slicer = Slicer::load(&binary_stl(&solids::cylinder(5.0, 12.0, 30))).unwrap();

@@ -20,7 +20,7 @@ fn boxes(corners: &[[[f32; 3]; 2]]) -> solids::Triangles {
     boxes.collect()
 }
 
-/// A wall of 0.3 mm, 10 mm long, and another of 1 mm beside it.
+/// A wall of 0.3 mm, 10 mm long, next to one of 1 mm.
 fn walls() -> solids::Triangles {
     boxes(&[
         [[0.0, 0.0, 0.0], [10.0, 0.3, 4.0]],
@@ -60,7 +60,7 @@ fn plan(slicer: &mut Slicer, options: &Options) -> Report {
         .clone()
 }
 
-/// What compensation erases: layers, bottom of the lowest, and the largest area.
+/// Parts that compensation erases: layers, bottom of the lowest, and the largest area.
 fn erased(report: &Report) -> Option<(usize, f64, f64)> {
     report
         .all_warnings()
@@ -138,7 +138,7 @@ fn a_sheet_that_is_thinner_than_the_print_through_is_warned_of() {
     let (layers, from_mm, area_mm2) = erased(&report).unwrap();
     assert_eq!(layers, 3);
     assert_near(from_mm, 9.7, 0.01);
-    // Except for what lies within three times the print-through of the block.
+    // Except within three times the print-through of the block.
     assert_near(area_mm2, 14.1 * 16.0, 3.0);
     assert_eq!(erased(&plan(&mut model, &options(through(0.1)))), None);
 }
@@ -203,7 +203,7 @@ fn a_least_width_is_left_by_compensation() {
         // Narrower than the least width: nothing is taken away.
         let (all, none) = pixels(0.3, Some(0.4));
         assert_eq!((all, none), (300, None));
-        // Wider by less than what is taken: the least width is left.
+        // Wider, but by less than the compensation takes away: the least width is left.
         let (some, none) = pixels(0.6, Some(0.4));
         assert_eq!((some, none), (400, None));
         // Wide enough: as without a least width.
@@ -288,7 +288,7 @@ fn cavities_that_stay_closed_are_warned_of() {
     assert_eq!(cavities, 1);
     assert_near(volume_mm3, 200.0, 20.0);
     assert!((-14.5..=-12.5).contains(&x) && y.abs() <= 5.0 && (10.0..=20.0).contains(&z));
-    // Where struts hold its shell.
+    // A cavity whose shell is held by struts.
     let mut model = load(&with_cavity([11.0; 3], [19.0; 3]));
     let report = plan(
         &mut model,

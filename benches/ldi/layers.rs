@@ -14,7 +14,7 @@ const PASSES: usize = 4;
 const RAYS: u32 = 220;
 /// Pixels around each panel.
 const MARGIN: usize = 6;
-/// Where nothing is left.
+/// Colour of rays without facets left.
 const PAPER: [u8; 3] = [255; 3];
 
 /// A PNG of two rows: the nearest facets of each pass seen from below, and the farthest ones seen from above.

@@ -1,4 +1,4 @@
-//! How long sampling on the CPU takes, by facets and rays: `cargo xtask bench ldi [MODEL.stl …]`.
+//! Time of sampling on the CPU, by facets and rays: `cargo xtask bench ldi [MODEL.stl …]`.
 //!
 //! Prints a table in Markdown. Times are the minimum of several runs; the growth exponent is that of time against
 //! facets + hits, fitted over all rows in which that sum is at least a million.

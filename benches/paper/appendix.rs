@@ -52,7 +52,7 @@ pub fn write(models: &[Model], text: &mut String) {
             fit(&layers, |layer| layer.bound),
         ];
         let fits = fits.map(|[correlation, slope]| format!("{correlation:.2} | {slope:.2}"));
-        // A shelf is as far as the walls beside it, and one of them is the next layer's.
+        // A shelf is as far away as the adjacent walls, and one of them is the next layer's.
         let excess = (0..layers.len()).map(|layer| {
             let beside = &layers[layer.saturating_sub(1)..(layer + 2).min(layers.len())];
             let bounds = beside.iter().map(|layer| layer.bound);

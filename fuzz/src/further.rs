@@ -1,4 +1,4 @@
-//! What is promised of plans beyond their layers: each is a second run of something, so an input looks at one.
+//! Promises of plans beyond their layers: each takes a second run, so an input checks one.
 
 use std::sync::LazyLock;
 

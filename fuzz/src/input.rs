@@ -46,7 +46,7 @@ impl Input<'_> {
         values[usize::from(self.byte()) % values.len()]
     }
 
-    /// True once in so many times.
+    /// Returns true once in `times` times.
     pub fn once_in(&mut self, times: u8) -> bool {
         // Zeros, which follow the last byte, choose what is usual.
         self.below(times) == times - 1

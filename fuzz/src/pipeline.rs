@@ -85,7 +85,7 @@ pub fn options(input: &mut Input<'_>) -> Options {
     options
 }
 
-/// What is not about layers.
+/// Sets the options that are not about layers.
 fn rest(input: &mut Input<'_>, options: &mut Options) {
     if input.once_in(4) {
         options.snap = Snap::Off;

@@ -1,4 +1,4 @@
-//! What is promised of the layers of every plan.
+//! Promises of the layers of every plan.
 
 use super::slicer::Slicer;
 use cusp_slicer::job::{Options, Planner, Report, Timings};
@@ -61,8 +61,8 @@ pub fn check(model: &[[Vec3; 3]], options: &Options, further: Further) {
     further::check(further, model, options, slicer, planned);
 }
 
-/// Whether the model is large on the plate, as one that is low may be scaled to any size by its height, or far smaller than its supports.
-/// Its rays and pixels only take longer.
+/// Returns true if the model is large on the plate, as a low one may be scaled to any size by its height, or far
+/// smaller than its supports. Its rays and pixels only take longer.
 fn takes_long(model: &[[Vec3; 3]], options: &Options) -> bool {
     let pose = Pose {
         rotation: options.rotation,

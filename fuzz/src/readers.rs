@@ -31,7 +31,7 @@ const CTB_SETTINGS: usize = 0x54;
 /// More than any preview takes.
 const MOST_PREVIEW_BYTES: usize = 1 << 16;
 
-/// Where the previews of a file that begins like this are, if it lacks them in seeds.
+/// Range of the previews in a file that begins like this, if seeds lack them.
 fn previews(bytes: &[u8]) -> Option<Range<usize>> {
     if bytes.starts_with(CTB) {
         let end = bytes[CTB_SETTINGS.min(bytes.len())..].first_chunk()?;
@@ -90,7 +90,7 @@ fn read_print_file(bytes: &[u8]) {
     for warning in &inspection.warnings {
         drop(warning.to_string());
     }
-    // These take longer than all else together, so a few inputs are enough.
+    // These take longer than the rest together, so a few inputs are enough.
     let draw: u64 = bytes.iter().copied().map(u64::from).sum();
     if draw.is_multiple_of(256) {
         surface(

@@ -25,7 +25,7 @@ fn ball(format: Format) -> (Vec<u8>, Report) {
     (files.swap_remove(0), report)
 }
 
-/// Where the settings of each layer of a GOO begin.
+/// Offsets of the settings of each layer of a GOO.
 fn goo_layers(goo: &[u8]) -> Vec<usize> {
     let number = |at: usize| u32::from_be_bytes(goo[at..at + 4].try_into().unwrap()) as usize;
     let mut at = 195_477;
@@ -37,7 +37,7 @@ fn goo_layers(goo: &[u8]) -> Vec<usize> {
     layers
 }
 
-/// Where the header of a Photon Workshop file begins, and the settings of each layer.
+/// Offsets of the header of a Photon Workshop file, and of the settings of each layer.
 fn photon_workshop_tables(file: &[u8]) -> (usize, Vec<usize>) {
     let number = |at: usize| u32::from_le_bytes(file[at..at + 4].try_into().unwrap()) as usize;
     let table = number(0x24);
@@ -225,7 +225,7 @@ fn exposures_that_are_no_fade_are_refused_or_kept() {
     let converted = PrintFile::open(&*converted).unwrap();
     assert_eq!(converted.about().uses_layer_values, Some(true));
     assert_eq!(converted.layers()[10].exposure_s, Some(7.0));
-    // Where the header says that they do not count, the printer takes those of the header.
+    // If the header says that they do not count, the printer takes those of the header.
     file[195_445] = 0;
     let (converted, _) = convert(&file, &to(Format::Ctb)).unwrap();
     let converted = PrintFile::open(&*converted).unwrap();

@@ -63,7 +63,7 @@ fn mask_name(format: Format, layer: usize) -> String {
 
 #[test]
 fn every_format_has_every_mask_as_it_is_or_mirrored() {
-    // A ball with a small cone beside it, so that left and right differ.
+    // A ball next to a small cone, so that left and right differ.
     let mut model = solids::sphere(2.0, 4);
     let cone = solids::cone(0.7, 2.0, 12);
     model.extend(solids::moved(&cone, glam::Vec3::new(3.0, 1.0, -1.0)));
@@ -410,7 +410,7 @@ fn a_file_is_the_same_wherever_its_layers_are_encoded() {
             let group_of = |group: usize| encoded[group].clone();
             let written = slicer.write_archive_of(Some(&group_of), Vec::new(), &mut quiet);
             assert!(written.unwrap().0 == expected, "{format:?} {antialias}");
-            // What another build would send.
+            // Data as another build would send it.
             let cut = |_: usize| vec![0; 7];
             let refused = slicer.write_archive_of(Some(&cut), Vec::new(), &mut quiet);
             assert!(matches!(

@@ -48,7 +48,7 @@ pub fn runs(file: &PrintFile<'_>, layer: usize, kept: impl Fn(u8) -> u8) -> Vec<
     runs
 }
 
-/// What is left of a brightness in a format.
+/// A brightness as a format keeps it.
 pub fn kept(format: Format, grey: u8) -> u8 {
     match format {
         Format::PhotonWorkshop | Format::AnycubicZip => (grey >> 4) * 17,

@@ -1,4 +1,4 @@
-//! What a hostile plan, a closed pipe and text from outside cannot do.
+//! Limits on the harm of a hostile plan, a closed pipe and text from outside.
 
 use std::process::{Command, Output};
 
@@ -95,7 +95,7 @@ fn of_several_models_to_orient_those_that_fail_say_so_in_their_lines() {
     assert!(lines[1]["best"].is_array());
 }
 
-/// What is changed in a plan, and the path that is then named.
+/// The path that an error names, and a change of a plan that leads to it.
 type Change = (&'static str, fn(&mut Value));
 
 #[test]

@@ -33,7 +33,7 @@ fn a_print_file_becomes_one_of_another_format() {
         ("b.zip", &["--format", "chitubox"], "chitubox"),
         ("c.ctb", &[], "ctb"),
         ("d.PRZ", &[], "goo"),
-        // What the printer reads, where the extension says nothing.
+        // The printer's format, if the extension decides nothing.
         ("e.file", &[], "goo"),
         ("f.zip", &["--printer", "mars-4-ultra"], "goo"),
     ] {

@@ -225,7 +225,7 @@ fn an_interrupted_batch_leaves_whole_files_alone() {
         .stderr(Stdio::piped())
         .spawn()
         .unwrap();
-    // Its line comes as soon as it is done.
+    // Its line comes once it is done.
     let mut lines = BufReader::new(child.stdout.take().unwrap()).lines();
     let line = lines.next().unwrap().unwrap();
     assert!(line.contains("small.zip"), "{line}");

@@ -186,8 +186,8 @@ fn a_bad_model_does_not_stop_the_others_of_a_batch() {
     }
 }
 
-/// Asserts that a batch writes `stdout`, beside the lines of failures, and reports exactly these bad models, each with an error that
-/// contains the text beside it.
+/// Asserts that a batch writes `stdout`, besides the lines of failures, and reports exactly these bad models, each with
+/// an error that contains its text.
 #[track_caller]
 fn assert_only_bad(output: &Output, stdout: &str, bad: &[(&str, &str)]) {
     let printed = String::from_utf8_lossy(&output.stdout);

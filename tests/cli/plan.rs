@@ -297,7 +297,7 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
     assert_eq!(again["resin_ml"], supported["resin_ml"]);
     assert_eq!(again["z_mm"], supported["z_mm"]);
 
-    // What is written has the resin of the print.
+    // The exported model has the resin of the print.
     for name in ["held.stl", "held.3mf"] {
         let held = folder.path().join(name);
         let held = held.to_str().unwrap();

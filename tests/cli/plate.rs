@@ -118,7 +118,7 @@ fn a_job_file_holds_models_options_and_places() {
     let model = &report["plates"][0]["models"][0];
     assert_eq!(model["copies"], 2);
     assert!(model["max_error"].as_f64().unwrap() <= 0.055 + 1e-9);
-    // What is on the command line goes before the file, and --arrange places copies again.
+    // The command line goes before the file, and --arrange places copies again.
     let report = parsed(&cusp(&[
         "plan",
         &job,

@@ -109,7 +109,7 @@ fn prices_that_cannot_be_used_are_named() {
     let prices = model(&folder, "prices.json", PRICES.as_bytes());
     let output = on_cpu(&["price", &many, "--prices", &prices, "--printer", "mars-4"]);
     assert_fails(&output, 1, "99999999999 copies are too many for a job");
-    // What one copy costs can be said without a printer; a plate of several has a size.
+    // The price of one copy needs no printer; a plate of several has a size.
     let prices = model(&folder, "prices.json", PRICES.as_bytes());
     json(&on_cpu(&["price", &ball, "--prices", &prices, "--json"]));
     let several = ["price", &ball, "--prices", &prices, "--copies", "2"];
@@ -133,7 +133,7 @@ fn a_verified_plan_has_the_verdict_and_the_price_that_the_shop_computes() {
     let planned = on_cpu(&["plan", &hollow, "--pitch", "0.05", "--json"]);
     let report = json(&planned);
 
-    // What the sender adds is not read.
+    // Additions of the sender are not read.
     let mut sent = report.clone();
     sent["price"] = json!({ "currency": "EUR", "total": 1, "lines": [] });
     sent["printability"] = json!({ "verdict": "ok", "findings": [] });
@@ -170,7 +170,7 @@ fn a_verified_plan_has_the_verdict_and_the_price_that_the_shop_computes() {
         "{shown}"
     );
 
-    // What is rejected is said, and the exit code says it too.
+    // A rejection is reported, and the exit code says it too.
     let rejected = verify(&["--limits", &limits, "--json"]);
     assert_eq!(rejected.status.code(), Some(1));
     let rejected: Value = serde_json::from_slice(&rejected.stdout).unwrap();

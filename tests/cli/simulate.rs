@@ -102,7 +102,7 @@ fn every_copy_on_a_plate_is_measured_where_the_file_or_a_job_says_that_it_stands
     );
     assert_eq!(json(&cusp(&["simulate", &job, &print, "--json"])), found);
 
-    // This format says nothing of copies.
+    // This format does not state copies.
     let other = path("print.ctb.zip");
     let format = ["--format", "chitubox", "-o", &other, "--json"];
     json(&on_cpu(&[&["slice", &job], &format[..]].concat()));

@@ -86,7 +86,7 @@ pub fn fingerprint(bytes: &[u8]) -> u64 {
     })
 }
 
-/// Runs a test in a process of its own, which measures nothing of other tests. `name` is the test's, with its modules.
+/// Runs a test in a process of its own, so that it measures no other tests. `name` is the test's, with its modules.
 pub fn in_own_process(name: &str, test: impl FnOnce()) {
     const IS_ALONE: &str = "CUSP_TEST_IS_ALONE";
     if env::var_os(IS_ALONE).is_some() {

@@ -66,7 +66,7 @@ fn a_sphere_has_the_area_of_its_facets() {
         let (area, length, polygons) = section(&ball, z);
         assert_near(area, section_mm2(&mesh, z), 1e-3);
         let radius = (25.0 - (z - 5.0) * (z - 5.0)).sqrt();
-        // Facets are inside the sphere, near its poles by more of what is left.
+        // Facets are inside the sphere; near its poles they cut off a larger share of the circle.
         let share = area / (PI * radius * radius);
         assert!(
             (0.97..1.0001).contains(&share),
@@ -86,7 +86,7 @@ fn a_torus_has_a_ring_with_a_hole() {
         .collect();
     let torus = turned_about_z(&profile, quarter);
     for z in [0.3, 1.1, 2.0, 3.3] {
-        // Where the profile crosses the height, relative to its middle.
+        // Points at which the profile crosses the height, relative to its middle.
         let height = z - thick;
         let mut radii: Vec<f64> = profile
             .iter()

@@ -12,7 +12,8 @@ use super::oracle::{distance, segments};
 use crate::common::solids::{self, Triangles};
 use crate::common::{on_plate, shifted_grid};
 
-/// How far an outline may be from that of the masks, in pixels: snapping moves vertices by half a step of 1/256 pixel along each axis.
+/// Greatest distance of an outline from that of the masks, in pixels: snapping moves vertices by half a step of 1/256
+/// pixel along each axis.
 const SNAPPING: f64 = std::f64::consts::SQRT_2 / 512.0;
 
 /// For each column of a row of pixels, whether its centre is inside, by the crossings of outlines to its left; and the crossings.

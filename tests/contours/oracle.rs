@@ -1,10 +1,10 @@
-//! What is true of valid polygons, checked pair by pair in whole numbers.
+//! Invariants of valid polygons, checked pair by pair in whole numbers.
 
 use cusp_slicer::contour::Polygon;
 
 type Point = [i32; 2];
 
-/// Where a point is with regard to a ring.
+/// Place of a point relative to a ring.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Place {
     In,
@@ -62,7 +62,7 @@ pub fn place(ring: &[Point], half_steps: [i64; 2]) -> Place {
     if winding == 0 { Place::Out } else { Place::In }
 }
 
-/// Where a ring is with regard to another that it neither crosses nor overlaps.
+/// Place of a ring relative to another that it neither crosses nor overlaps.
 fn place_of_ring(ring: &[Point], within: &[Point]) -> Place {
     let middles = ring.iter().enumerate().map(|(i, a)| {
         let b = ring[(i + 1) % ring.len()];
@@ -74,8 +74,8 @@ fn place_of_ring(ring: &[Point], within: &[Point]) -> Place {
         .unwrap_or(Place::On)
 }
 
-/// Asserts that rings are simple and oriented, that none of them crosses another or has an edge in common with it, and that holes are inside
-/// their outer rings, beside each other, with no other polygon over the solid.
+/// Asserts that rings are simple and oriented, that none of them crosses another or has an edge in common with it, and
+/// that holes are inside their outer rings, apart from each other, with no other polygon over the solid.
 #[track_caller]
 pub fn assert_valid(polygons: &[Polygon]) {
     let rings: Vec<&[Point]> = polygons

@@ -106,7 +106,7 @@ fn bodies_askew_are_valid_and_have_the_area_of_their_raster() {
             turned.push((turn, middle, size));
         }
         let mesh = on_plate(&triangles);
-        // Where the middle of the model was.
+        // The foot of the model's middle before it was placed.
         let corners = triangles.iter().flatten();
         let (least, most) = corners.fold((Vec3::INFINITY, Vec3::NEG_INFINITY), |(a, b), &c| {
             (a.min(c), b.max(c))

@@ -106,7 +106,7 @@ fn models_are_read_as_they_were_written() -> Result<(), Failed> {
     Ok(())
 }
 
-/// What `prusa-slicer --info` says of a file.
+/// Output of `prusa-slicer --info` for a file.
 fn prusa_info(path: &Path) -> Result<HashMap<String, f64>, Failed> {
     let output = Command::new(PRUSA_SLICER)
         .arg("--info")

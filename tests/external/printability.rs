@@ -90,7 +90,7 @@ fn by_scipy(masks: &Masks, plan: &Plan, limits: &Limits) -> Result<Found, Failed
     Ok(serde_json::from_slice(&output.stdout)?)
 }
 
-/// What the script calls findings of a code: specks are loose bodies too.
+/// The script's name for findings of a code: specks are loose bodies too.
 fn kind(code: Code) -> &'static str {
     match code {
         Code::LooseBody | Code::Speck => "loose",

@@ -9,7 +9,7 @@ pub struct Read3mf {
     pub application: String,
     pub vertices: Vec<[f32; 3]>,
     pub triangles: Vec<[usize; 3]>,
-    /// Where the object is moved to.
+    /// The place to which the object is moved.
     pub moved: [f64; 2],
     pub profile: Vec<f64>,
 }
@@ -85,7 +85,7 @@ pub fn read(bytes: &[u8], profile_name: &str) -> Read3mf {
     }
 }
 
-/// Where the slicer of a format looks for the profile.
+/// Name under which the slicer of a format looks for the profile.
 pub fn profile_name(format: Format) -> &'static str {
     match format {
         Format::Orca3mf => "Metadata/layer_heights_profile.txt",

@@ -227,7 +227,7 @@ fn limits_follow_from_the_nozzle_unless_they_are_given() {
         ..options(Format::Prusa3mf)
     };
     assert_eq!(limits(given), [0.1, 0.3, 0.26, 0.4]);
-    // What other formats report does not change.
+    // Reports for other formats do not change.
     let reported = serde_json::to_value(Options::default().settled()).unwrap();
     assert_eq!(
         (&reported["layer_min_mm"], &reported["layer_max_mm"]),

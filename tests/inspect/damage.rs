@@ -42,7 +42,7 @@ fn is_bad(bytes: &[u8]) -> bool {
     };
     let flips = file.about().flips();
     for layer in 0..file.layers().len().min(8) {
-        // Only the smallest masks of what is left: a changed size may be large.
+        // Only the smallest of the remaining masks: a changed size may be large.
         if file.about().mask_pixels() < 1 << 20 {
             let _ = file.mask(layer, flips);
         }

@@ -5,7 +5,7 @@ use cusp_slicer::format::Format;
 
 use super::{Blank, error, inspected, only_fault, open, pixels, warnings};
 
-/// Where the tables of a file are.
+/// Offsets of the tables of a file.
 struct Tables {
     header: usize,
     machine: usize,

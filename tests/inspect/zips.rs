@@ -95,7 +95,7 @@ fn the_colours_of_nanodlp_are_pixels() {
     assert_eq!(tops, [(0.1, Some(20.0)), (0.15, Some(2.5))]);
     assert_eq!(file.preview(0).unwrap().rgb, [1, 2, 3, 4, 5, 6]);
     assert_eq!(pixels(&file, 0), [255, 0, 0, 0, 0, 127, 128, 1]);
-    // What is beyond the screen does not count.
+    // Pixels beyond the screen do not count.
     assert_eq!(pixels(&file, 1), [0; 8]);
     let lit: Vec<_> = found
         .layer_values

@@ -1,4 +1,4 @@
-//! Jobs within a bound of memory: what is not kept is found anew, and everything comes out the same.
+//! Jobs within a bound of memory: hits that are not kept are found again, and all results are the same.
 
 use crate::common::Slicer;
 use cusp_slicer::Error;
@@ -228,7 +228,7 @@ fn rays_found_anew_are_those_of_the_ldi() {
     }
 }
 
-/// What takes longer than a job may, and how long.
+/// The work that takes longer than a job may.
 #[track_caller]
 fn bound_by<T: std::fmt::Debug>(found: Result<T, Error>, allowed: f64) -> Work {
     match found {

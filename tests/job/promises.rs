@@ -1,4 +1,4 @@
-//! What a plan guarantees: tolerances, targets and true heights, with warnings where it cannot.
+//! Guarantees of a plan: tolerances, targets and true heights, with warnings where it cannot keep them.
 
 use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Minimize, Options, Planner, Snap};

@@ -1,4 +1,4 @@
-//! How options are resolved, and which are rejected before any work is done.
+//! Options: their resolution, and those that are rejected before any work is done.
 
 use crate::common::{assert_near, load, solids};
 use cusp_slicer::Error;

@@ -149,11 +149,11 @@ fn supports_are_estimated_by_their_closed_form() {
             let foot = circle(profile.foot_mm) * profile.foot_thickness_mm;
             assert_near(found.support_ml, contacts * (foot + pillar) / 1e3, 1e-4);
         }
-        // Standing on an edge it is steeper than what needs support: its lowest line is all that is held.
+        // On its edge, its surfaces are too steep to need support: only its lowest line is held.
         let steep = metrics(&mut board, &options, DVec3::new(1.0, 0.0, 1.0).normalize());
         assert_near(steep.contact_mm2, circle(profile.contact_mm), 1e-9);
     }
-    // Contacts count with the weight of what they touch.
+    // Contacts count with the weight of the surface that they touch.
     let plain = metrics(&mut board, &options(), DVec3::Z);
     board.set_weights(Some(vec![0.25; 12])).unwrap();
     let light = metrics(&mut board, &options(), DVec3::Z);

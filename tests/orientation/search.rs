@@ -14,7 +14,7 @@ use glam::DVec3;
 
 const COUNT: usize = 300;
 
-/// Where the best direction is planted.
+/// The planted best direction.
 fn planted() -> DVec3 {
     DVec3::new(0.48, -0.6, 0.64)
 }

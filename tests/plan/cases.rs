@@ -15,7 +15,7 @@ pub struct Case {
     pub limits: Limits,
     /// The limits in bins.
     pub rules: Rules,
-    /// What is shown when a test fails.
+    /// Text that is shown when a test fails.
     pub text: String,
 }
 
@@ -70,7 +70,7 @@ pub fn random(random: &mut fastrand::Rng, most: usize) -> Case {
 }
 
 impl Case {
-    /// Where a plan ends whose thicknesses are free, if limits allow one.
+    /// The top of a plan of any thicknesses, if limits allow one.
     pub fn top(&self) -> Result<u32, PlanError> {
         let segments = Segments::new(bins(self.count), &self.limits, &[])?.segments;
         Ok(segments[segments.len() - 1].upper())

@@ -1,4 +1,4 @@
-//! Where copies stand: apart from each other, on the plate, and on the fewest plates.
+//! Places of copies: apart from each other, on the plate, and on the fewest plates.
 
 use cusp_slicer::arrange::{ArrangeError, Arranging};
 use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement};
@@ -126,7 +126,7 @@ fn arranged_copies_are_as_far_apart_as_asked_and_on_their_plate() {
 
 #[test]
 fn supports_count_when_copies_are_arranged() {
-    // Its feet stand beside it.
+    // The feet of its supports stand next to its stem.
     let tee = {
         let mut tee = solids::cuboid(Vec3::new(8.0, 6.0, 1.0));
         tee.extend(solids::moved(
@@ -158,7 +158,7 @@ fn supports_count_when_copies_are_arranged() {
         plate(&models).problems(&placed(&options, &found)).unwrap(),
         []
     );
-    // What overlaps by its supports alone is a problem.
+    // An overlap of supports alone is a problem.
     let near = [0.0, 7.2].map(|x_mm| Placement {
         model: 0,
         plate: 0,
@@ -220,7 +220,7 @@ fn what_lies_in_a_bay_needs_no_room_of_its_own() {
 #[test]
 fn models_are_turned_where_that_saves_a_plate_and_only_there() {
     let bar = solids::cuboid(Vec3::new(28.0, 8.0, 1.0));
-    // Three lie one behind the other; a fourth fits only beside them, upright.
+    // Three lie one behind the other; a fourth fits only next to them, upright.
     assert_eq!(plates_of(&[&bar], &[4], 1.0, 0), 2);
     assert_eq!(plates_of(&[&bar], &[4], 1.0, 90), 1);
     let three = plate(&[&bar]).arrange(&job(options(), &[3])).unwrap();
@@ -307,7 +307,7 @@ fn copies_that_overlap_or_leave_the_plate_are_found() {
         codes(&[place(0, 0.0, 0.0), place(1, 3.5, 0.0)]),
         ["plate-collision"]
     );
-    // The corner of the cube is beside the ball.
+    // The corner of the cube is next to the ball.
     assert_eq!(codes(&[place(0, 0.0, 0.0), place(1, 3.6, 3.6)]), [""; 0]);
     assert_eq!(codes(&[place(0, 18.5, 0.0)]), ["plate-outside"]);
     assert_eq!(codes(&[place(0, 18.0, -13.0)]), [""; 0]);

@@ -84,7 +84,7 @@ fn turned_copies_have_the_same_supports() {
     assert!((on_plate.support_ml / of_one.support_ml - 1.0).abs() < 0.02);
     assert_eq!(on_plate.lift_mm, 3.0);
     assert_eq!(report.z_mm, alone.z_mm);
-    // What is drawn of each copy.
+    // The supports that are drawn of each copy.
     let shown = slicer.positions_of(FacetClass::Support);
     assert!(!shown.is_empty());
     assert_eq!(several.positions_of(0, FacetClass::Support).unwrap(), shown);

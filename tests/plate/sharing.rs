@@ -1,4 +1,4 @@
-//! What copies share: rays, plans, time.
+//! Rays, plans and time shared by copies.
 
 use crate::common::Slicer;
 use cusp_slicer::Error;
@@ -215,7 +215,7 @@ fn shares_follow_the_true_area_of_shadows() {
     let all_s = report.print_time_s;
     assert_near(models[0].print_time_s, all_s * 6.0 / 7.0, 1e-3);
     assert_near(models[1].print_time_s, all_s / 7.0, 1e-3);
-    // What lies over something else has no shadow of its own.
+    // Parts above others have no shadow of their own.
     let mut mushroom = solids::moved(&solids::sphere(5.0, 5), Vec3::Z * 9.0);
     mushroom.extend(solids::cuboid(Vec3::new(2.0, 2.0, 6.0)));
     let mesh = crate::common::on_plate(&mushroom);

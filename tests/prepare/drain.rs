@@ -79,7 +79,7 @@ fn a_slanted_hole_is_where_it_was_asked_for_at_the_side_of_the_box() {
     for direction in [[-1.0, 0.0, 1.0], [-1.0, 0.5, -1.0], [-1.0, 1.0, 0.0]] {
         let slanted = Drain { direction, ..SIDE };
         let report = plan(&mut cube, &hollowed(drained(vec![slanted])));
-        // What it takes of a wall of 2 mm is a slanted cylinder.
+        // It removes a slanted cylinder from a wall of 2 mm.
         let [x, y, z] = direction;
         let longer = (x * x + y * y + z * z).sqrt();
         let wall_mm = 2.0 + 0.5 * report.models[0].hollowed.clone().unwrap().resolution_mm;
@@ -349,7 +349,7 @@ fn automatic_holes_keep_off_what_weighs_more_where_they_can() {
     let beside = hole(&mut cube, true);
     let at = Vec3::from_array(beside.at_mm.map(|mm| mm as f32)) - Vec3::Z * 10.0;
     assert!(at.dot(side) < 9.0, "{beside:?}");
-    // Where all weighs more a hole that shows is better than resin that stays.
+    // If all facets have more weight, a hole that shows is better than resin that stays.
     weigh(&mut cube, &|_| true);
     assert_eq!(hole(&mut cube, true), shortest);
 }

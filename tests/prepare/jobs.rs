@@ -62,7 +62,7 @@ fn a_solid_model_is_as_it_was_before_it_was_hollowed() {
     assert!(file(&mut cube) == before);
 }
 
-/// What is reported while hollowing counts: a change of supports repeats none of it.
+/// Counts the reports of progress while hollowing: a change of supports repeats none of them.
 #[test]
 fn a_change_of_supports_hollows_nothing_again() {
     let triangles = solids::sphere(12.0, 5);

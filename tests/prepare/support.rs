@@ -371,7 +371,7 @@ fn points_by_hand_are_kept_and_filled_up() {
     let others = supports.points.iter().filter(|&it| *it != by_hand);
     let nearest_mm = others.map(away_mm).fold(f64::INFINITY, f64::min);
     assert!((profile.spacing_mm - 0.002..2.0 * profile.spacing_mm).contains(&nearest_mm));
-    // Where everything is held already, nothing is added.
+    // If everything is held already, nothing is added.
     let all = Supporting {
         points: Some(supports.points.clone()),
         ..kept.clone()
@@ -409,7 +409,7 @@ fn contacts_keep_off_what_weighs_more_than_a_half() {
     let report = plan(&mut board, &options(true));
     let spared = report.models[0].supported.clone().unwrap();
     assert!(spared.points.len() > 5 && spared.points.iter().all(is_light));
-    // What contacts on the other half do not hold is named, and nothing else.
+    // Exactly the points that contacts on the other half do not hold are named.
     assert!(spared.unreached.len() > 5);
     for missed in &spared.unreached {
         assert!(!is_light(missed));

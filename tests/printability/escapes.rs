@@ -29,7 +29,7 @@ fn a_hollow_with_a_narrow_hole_hardly_drains() {
     assert_codes(&found, &[Code::Cup, Code::SmallEscape]);
     let escape = of_code(&found, Code::SmallEscape)[0];
     assert_eq!(escape.layers, [20, 139]);
-    // Where the middle of a disc of 1.95 mm has room: all but 0.95 mm at each wall, and a little more beside the hole.
+    // Room for the middle of a disc of 1.95 mm: all but 0.95 mm at each wall, and a little more near the hole.
     let room_mm3 = 6.1 * 6.1 * 6.0;
     assert!((room_mm3..room_mm3 + 0.5).contains(&escape.volume_mm3));
     let narrower = Limits {

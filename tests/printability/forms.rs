@@ -186,7 +186,7 @@ fn a_balcony_in_a_corner_is_no_bridge() {
     ];
     let found = check(&joined(corner), &strict());
     assert_codes(&found, &[Code::Overhang]);
-    // What no line holds that leads from one wall to the other: that is at most twice as steep as the diagonal.
+    // The part that no line from one wall to the other holds: such a line is at most twice as steep as the diagonal.
     let overhang = of_code(&found, Code::Overhang)[0];
     assert!(overhang.area_mm2 < 3.0 * 3.0 / 2.0, "{overhang:?}");
 }

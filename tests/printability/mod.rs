@@ -1,4 +1,4 @@
-//! What the checks find on solids in closed form, against brute force on voxels, and under symmetries.
+//! Findings of the checks on solids in closed form, against brute force on voxels, and under symmetries.
 
 mod escapes;
 mod forms;
@@ -80,7 +80,7 @@ fn masks_with(
     Masks::new(&ldi, plan, &grid, samples, Side::Above)
 }
 
-/// What is found on a solid in layers of 0.05 mm, on pixels of 0.05 mm.
+/// Findings on a solid in layers of 0.05 mm, on pixels of 0.05 mm.
 fn check(triangles: &solids::Triangles, limits: &Limits) -> Printability {
     let plan = layers_of(on_plate(triangles).bounds().size().z);
     let masks = masks_of(triangles, [0.05; 2], &plan, Samples::ONE);

@@ -28,7 +28,7 @@ fn check(triangles: &Triangles, margin: [u32; 2]) -> Printability {
     inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap()
 }
 
-/// What does not depend on places: code, layers, area and volume, sorted.
+/// Measures that do not depend on places: code, layers, area and volume, sorted.
 fn measures(found: &Printability) -> Vec<String> {
     let findings = found.findings.iter();
     let mut all: Vec<String> = findings

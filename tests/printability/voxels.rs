@@ -115,7 +115,7 @@ impl Voxels {
 
     /// Islands, loose and separate bodies, and specks.
     pub fn bodies(&self, limits: &Limits) -> Vec<Found> {
-        // What begins, in the order of age: layer, more pixels first, then place.
+        // Components that begin, in the order of age: layer, more pixels first, then place.
         let mut births: Vec<(usize, i64, usize)> = Vec::new();
         for (layer, plane) in self.layers.iter().enumerate() {
             let labels = &self.flood(std::slice::from_ref(plane))[0];

@@ -102,7 +102,7 @@ fn no_change_of_bytes_makes_a_reader_panic() {
     }
 }
 
-/// Where the zip's checksum would notice, the text is changed before it is packed.
+/// The text is changed before it is packed, so that the zip's checksum does not notice.
 #[test]
 fn no_change_of_a_part_makes_the_reader_panic() {
     let mut random = fastrand::Rng::with_seed(8);

@@ -1,4 +1,4 @@
-//! What files are is told by their content.
+//! Kinds of files, recognised by their content.
 
 use cusp_slicer::model::read::kind::FileKind;
 use cusp_slicer::model::read::{ReadError, read as any};

@@ -78,7 +78,7 @@ fn warped_quadrilaterals_are_cut_from_the_first_corner_to_the_third() {
         .map(|corner: [i16; 3]| Vec3::from(corner.map(f32::from)));
     let expected = [[a, b, c], [a, c, d], [b, c, d], [b, d, a]];
     assert_eq!(read(text).unwrap(), expected);
-    // Where that diagonal is outside, it is the other one.
+    // If that diagonal is outside, the other one is taken.
     let arrow = "v 0 0 0\nv 4 1 0\nv 0 4 0\nv 1 1 0\nf 1 2 3 4\n";
     let cut = read(arrow).unwrap();
     let area = |[a, b, c]: [Vec3; 3]| 0.5 * (b - a).cross(c - a).z;

@@ -55,7 +55,7 @@ pub fn mesh(triangles: &[[Vec3; 3]]) -> String {
     text
 }
 
-/// How a zip is written.
+/// Way in which a zip is written.
 #[derive(Clone, Copy, PartialEq)]
 pub enum Zipping {
     Deflated,

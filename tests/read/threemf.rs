@@ -149,7 +149,7 @@ fn parts_that_slicers_do_not_print_are_subtracted_or_left_out_by_name() {
             ("5", PartKind::SupportEnforcer),
         ]
     );
-    // What is subtracted reaches beyond the block, also below the plate.
+    // The negative part reaches beyond the block, also below the plate.
     let mut slicer = Slicer::load(&bytes).unwrap();
     let options = Options {
         rays: 200,

@@ -195,7 +195,7 @@ fn one_pixel_too_many_is_found() {
     }
 }
 
-/// What is wrong with a mask.
+/// The fault of a mask.
 fn fault(error: SimulationError) -> LayerFault {
     match error {
         SimulationError::File(PrintFileError::Layer { fault, .. }) => fault,

@@ -1,4 +1,4 @@
-//! What print files print, measured against models: closed forms, hand-made files, and a naive oracle.
+//! Prints of print files, measured against models: closed forms, hand-made files, and a naive oracle.
 
 mod files;
 mod oracle;

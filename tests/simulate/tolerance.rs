@@ -1,4 +1,4 @@
-//! What reports promise of a print, held against what its print file prints.
+//! Promises of reports, compared with the solid that the print file prints.
 
 use crate::common::Slicer;
 use cusp_slicer::format::Format;

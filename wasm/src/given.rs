@@ -81,7 +81,7 @@ impl Given<'_> {
         }
     }
 
-    /// Refuses it in place of what is expected.
+    /// The error for this value in place of the expected one.
     fn refuse(self, expected: &dyn Expected) -> Error {
         let text = self.value.as_string();
         let unexpected = match (&text, self.value.as_f64(), self.value.as_bool()) {

@@ -14,7 +14,7 @@ pub fn to_js(value: &impl Serialize) -> JsValue {
     JSON::parse(&json).unwrap_or(JsValue::NULL)
 }
 
-/// What is thrown for an error: its code and details, and one sentence that says what to do.
+/// The value that is thrown for an error: its code and details, and one sentence that says what to do.
 pub fn thrown(error: &(impl Serialize + Display)) -> JsValue {
     let thrown = to_js(error);
     // Fails only on values that are not objects.

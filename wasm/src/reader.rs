@@ -8,7 +8,7 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 
 use crate::js::{thrown, to_js};
 
-/// What every function here throws.
+/// The type of all errors thrown here.
 #[wasm_bindgen(typescript_custom_section)]
 const ERROR: &str = "export type ReaderError = PrintFileError & { message: string };";
 
@@ -87,7 +87,8 @@ impl PrintReader {
             .map_err(|error| thrown(&error))
     }
 
-    /// The surface of what is printed, coarse enough to look at: nine numbers per facet, in millimetres. Needs an inspection.
+    /// The surface of the printed solid, coarse enough to display: nine numbers per facet, in millimetres. Needs an
+    /// inspection.
     pub fn surface(&self) -> Vec<f32> {
         let about = self.file.about();
         surface(

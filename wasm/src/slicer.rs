@@ -26,7 +26,8 @@ use wasm_bindgen::prelude::{JsValue, wasm_bindgen};
 use crate::given;
 use crate::js::{thrown, to_js};
 
-/// What every function here throws: the code and the typed details of an [`Error`], and one sentence that says what to do.
+/// The type of all errors thrown here: the code and the typed details of an [`Error`], and one sentence that says what
+/// to do.
 ///
 /// The types of all errors are generated. An error that holds another is serialised as that one, which `tsify` does not see;
 /// `Flat` corrects for it.
@@ -539,7 +540,7 @@ impl Job {
         let group_of = encoded.map(|encoded| {
             move |group: usize| {
                 let bytes = encoded.call1(&JsValue::NULL, &JsValue::from(group as u32));
-                // What throws gives no layers, which is an error of the writer.
+                // A function that throws gives no layers, which is an error of the writer.
                 bytes.map_or_else(|_| Vec::new(), |bytes| Uint8Array::from(bytes).to_vec())
             }
         });
@@ -572,7 +573,7 @@ impl LayerGroups {
         to_js(&self.groups.format)
     }
 
-    /// What [`encode_group`] asks for besides: columns, rows and the level of anti-aliasing.
+    /// The canvas for [`encode_group`]: columns, rows and the level of anti-aliasing.
     pub fn canvas(&self) -> Vec<u32> {
         let Canvas { pixels, antialias } = self.groups.canvas;
         vec![pixels[0], pixels[1], antialias]
@@ -650,7 +651,7 @@ const CHUNK_BYTES: usize = 1 << 18;
 /// A writer that calls a JavaScript function.
 struct Chunks<'a> {
     take: &'a Function,
-    /// What that function threw.
+    /// The value that this function threw.
     thrown: Option<JsValue>,
 }
 
@@ -689,8 +690,8 @@ impl Write for Chunks<'_> {
     }
 }
 
-/// What an order costs by the prices of a shop. Of each item, `items` has the copies, and the millilitres of resin and the seconds
-/// of one of them.
+/// The price of an order by the prices of a shop. For each item, `items` has the number of copies, and the millilitres
+/// of resin and the seconds of one copy.
 ///
 /// # Errors
 /// Throws a `CuspError`.
@@ -708,7 +709,7 @@ pub fn price(
     let items = items
         .iter()
         .map(|&[copies, resin_ml, print_time_s]| PriceItem {
-            // What is no number of copies becomes 0, which no order may have.
+            // An invalid number of copies becomes 0, which no order may have.
             copies: copies as usize,
             resin_ml,
             print_time_s,

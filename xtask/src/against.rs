@@ -27,7 +27,7 @@ pub struct Arguments {
     /// Number of measured rounds
     #[arg(long, default_value_t = 7, value_parser = clap::value_parser!(u32).range(1..))]
     rounds: u32,
-    /// Models to measure beside the ball, as STL, OBJ or 3MF; they are scaled to 60 mm
+    /// Models to measure in addition to the ball, as STL, OBJ or 3MF; they are scaled to 60 mm
     models: Vec<PathBuf>,
 }
 
@@ -200,7 +200,7 @@ fn program_name() -> String {
     format!("cusp{}", std::env::consts::EXE_SUFFIX)
 }
 
-/// Measures a case with both programs in turn. There is nothing of the first where it fails: it may not know an option.
+/// Measures a case with both programs in turn. The first has no results if it fails: it may not know an option.
 fn compare(case: &Case, programs: &[PathBuf; 2], rounds: u32) -> Result<[Measured; 2]> {
     let mut measured = [Measured::default(), Measured::default()];
     let mut lacks_it = false;

@@ -17,7 +17,7 @@ const GPU: &str = "gpu";
 /// In place of a bench: all of the command line, against another revision.
 const ALL: &str = "all";
 
-/// Where Vulkan's loader may lie on this computer.
+/// Paths at which Vulkan's loader may lie.
 const LOADERS: [&str; 4] = [
     "/usr/lib/x86_64-linux-gnu/libvulkan.so.1",
     "/usr/lib/aarch64-linux-gnu/libvulkan.so.1",

@@ -16,7 +16,7 @@ use serde_json::{Value, json};
 
 use crate::{bench, debian, process, project::Project, tally::Tally};
 
-/// Where the figures are recorded.
+/// File in which the figures are recorded.
 const RECORD: &str = "benches/counts.json";
 const VALGRIND: &str = "valgrind";
 /// glibc chooses how to copy memory by the processor. Some have one instruction for it, which valgrind counts once per byte; without these,
@@ -86,9 +86,9 @@ pub fn run(project: &Project, scratch: &Path) -> Result<Tally> {
 
 /// Builds the bench, and returns its path.
 ///
-/// The dependencies are those of the tests, which a release build would compile anew for minutes. The crate itself is compiled as for release:
-/// in one unit, since where units end decides what is copied into callers, and that alone changed counts by up to 10 %. Without the command
-/// line, the crate takes half as long.
+/// The dependencies are those of the tests, which a release build would spend minutes compiling again. The crate itself
+/// is compiled as for release: in one unit, since the ends of units decide what is copied into callers, and that alone
+/// changed counts by up to 10 %. Without the command line, the crate takes half as long.
 fn build(project: &Project) -> Result<PathBuf> {
     let mut cargo = process::cargo(project);
     cargo.args(["build", "--workspace", "--no-default-features"]);

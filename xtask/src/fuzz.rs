@@ -15,7 +15,7 @@ const SLOW: (&str, f64) = ("pipeline", 4.0);
 /// Targets that take each byte for a decision. Comparisons that they make tell libFuzzer nothing, and watching them takes half of the time.
 const DECIDING: [&str; 2] = ["inspect", "pipeline"];
 
-/// Runs the given targets, or all, for so many minutes together. Returns `false` if one found something.
+/// Runs the given targets, or all, for `minutes` together. Returns `false` if one found something.
 pub fn run(project: &Project, minutes: f64, names: &[String]) -> Result<bool> {
     let mut targets = Vec::new();
     for file in fs::read_dir(project.root.join("fuzz/fuzz_targets"))? {

@@ -75,7 +75,7 @@ pub fn run(project: &Project, names: &[String]) -> Result<bool> {
     }
     let is_chosen = |name: &str| names.is_empty() || names.iter().any(|chosen| chosen == name);
     let failed = thread::scope(|scope| {
-        // A module is linked by one thread, which takes a minute: the other checks run beside it. A failure shows in the check.
+        // One thread links a module for a minute: the other checks run in the meantime. A failure shows in the check.
         if is_chosen(OXLINT) {
             scope.spawn(|| wasm::build(project));
         }

@@ -68,7 +68,7 @@ enum Command {
     Size,
     /// Count instructions, allocations and bytes of print files, and compare them with benches/counts.json
     Counts,
-    /// Feed random input to the readers and the whole path for so many minutes (nightly compiler)
+    /// Feed random input to the readers and the whole path for this many minutes (nightly compiler)
     Fuzz {
         /// Minutes for all targets together
         minutes: f64,
@@ -91,7 +91,7 @@ enum Command {
 
 fn main() -> ExitCode {
     // Without arguments clap prints the help to stderr and exits with 2. Asking
-    // what there is to do is not an error here.
+    // for the list of tasks is not an error here.
     if std::env::args_os().len() < 2 {
         use clap::CommandFactory;
         let _ = Arguments::command().print_help();

@@ -18,7 +18,7 @@ pub fn npm(project: &Project) -> Result<Command> {
     Ok(bare_npm(project))
 }
 
-/// Installs exactly what the lock file names, if that is newer than what is installed.
+/// Installs exactly the packages of the lock file, if it is newer than those installed.
 pub fn ensure_packages(project: &Project) -> Result<()> {
     let needed = format!("Node {OLDEST_NODE} or newer is required: https://nodejs.org");
     let found = process::output(command("node").arg("--version")).context(needed.clone())?;

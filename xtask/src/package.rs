@@ -15,11 +15,11 @@ use crate::{
     wasm,
 };
 
-/// What a package may consist of, by the first folder or, with at most one `*`, the name. Each must be there.
+/// Files that a package may hold, by the first folder or, with at most one `*`, the name. Each must be there.
 struct Contents {
     name: &'static str,
     allowed: &'static [&'static str],
-    /// The largest size of what is uploaded, in bytes.
+    /// The largest size of the uploaded file, in bytes.
     budget: u64,
 }
 
@@ -165,7 +165,7 @@ fn only_file(folder: &Path, extension: &str) -> Result<PathBuf> {
     first.with_context(|| format!("no .{extension} in {}", folder.display()))
 }
 
-/// Checks the files, the links of the readme and the size of what is uploaded.
+/// Checks the files, the links of the readme and the size of the uploaded file.
 fn check(contents: &Contents, files: &[String], folder: &Path, uploaded: &Path) -> Result<()> {
     let Contents {
         name,

@@ -32,7 +32,7 @@ pub fn cargo(project: &Project) -> Command {
 /// A program of rustup's nightly toolchain.
 pub fn nightly(program: impl AsRef<OsStr>) -> Command {
     let mut rustup = command("rustup");
-    // What rustup's cargo sets for xtask would mislead the other toolchain.
+    // The variables that rustup's cargo sets for xtask would mislead the other toolchain.
     for name in ["CARGO", "RUSTC", "RUSTDOC", "RUSTUP_TOOLCHAIN"] {
         rustup.env_remove(name);
     }

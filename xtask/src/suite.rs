@@ -28,7 +28,7 @@ const SERVER_PACKAGES: [&str; 3] = ["nginx-light", "lighttpd", "lighttpd-mod-def
 /// Browsers of engines other than Chromium's, and a screen in memory for them.
 const ENGINE_PACKAGES: [&str; 3] = ["firefox-esr", "webkit2gtk-driver", "xvfb"];
 
-/// The folder of what reads and writes our files with programs of others.
+/// The folder of tests that read and write our files with programs of others.
 const INTEROP: &str = "tests/interop";
 
 /// The steps, in the order of the summary.
@@ -124,7 +124,7 @@ impl Step {
                 )
             }
             Self::Engines => {
-                // Where they are missing all the same, their tests show as ignored.
+                // If they are missing all the same, their tests show as ignored.
                 debian::try_ensure(&ENGINE_PACKAGES);
                 let mut npm = page(project)?;
                 // Files are compared with those that it writes.

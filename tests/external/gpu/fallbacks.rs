@@ -66,7 +66,8 @@ pub fn with_buffers_of(bytes: u64) -> Result<Gpu, Failed> {
     })
 }
 
-/// The limits of WebGPU's compatibility mode, as far as wgpu has them: it cannot forbid storage buffers in one stage alone.
+/// The limits of WebGPU's compatibility mode that wgpu can express: it cannot forbid storage buffers in one stage
+/// alone.
 pub fn compatible() -> wgpu::Limits {
     wgpu::Limits {
         max_texture_dimension_2d: 4096,

@@ -135,7 +135,7 @@ fn tests() -> Vec<(String, Test)> {
     tests
 }
 
-/// Adds tests at the bounds of what one pass, cell, buffer or device holds.
+/// Adds tests at the capacity of one pass, cell, buffer or device.
 fn add_bounds(tests: &mut Vec<(String, Test)>) {
     tests.push((
         // Beside others, in the same tiles and in others.

@@ -198,7 +198,7 @@ fn both_athenas_are_read() {
         };
         let (file, report) = check(&scene(screen), &options);
         assert_eq!(report.layers, 14);
-        // The block within the cone, then beside it and alone; nothing; the needle.
+        // The block within the cone, then next to it and alone; nothing; the needle.
         let areas: Vec<u32> = file.layer_info.iter().map(|info| info.area_count).collect();
         assert_eq!(areas, [1, 1, 2, 2, 2, 2, 1, 0, 0, 1, 1, 1, 1, 1]);
     }

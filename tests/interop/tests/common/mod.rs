@@ -53,8 +53,8 @@ pub const EXPOSURES_S: [f64; 9] = [25.0, 25.0, 2.0, 2.0, 2.75, 2.75, 4.5, 4.5, 4
 /// The layer of [`several`] in which nothing is lit.
 pub const BLACK: usize = 6;
 
-/// A cone and a block beside it, which left and right tell apart; above a gap, a needle thinner than a pixel, which a
-/// single ray meets. 0.7 mm high.
+/// A cone next to a block, which distinguish left and right; above a gap, a needle thinner than a pixel, which a single
+/// ray meets. 0.7 mm high.
 pub fn scene(screen: Screen) -> solids::Triangles {
     let mut scene = solids::cone(0.8, 0.3, 12);
     let block = solids::cuboid(Vec3::new(0.25, 0.5, 0.34));

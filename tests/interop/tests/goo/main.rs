@@ -176,7 +176,7 @@ fn hollow_and_supported_models_are_read() {
 #[test]
 fn layers_of_several_thicknesses_are_read_for_every_printer() {
     for printer in big_endian_printers() {
-        // Whether it prints them is another question.
+        // The printer's ability to print them is another question.
         check_several(&Printer {
             variable_layers: VariableLayers::Yes,
             ..printer.clone()
