@@ -2,7 +2,7 @@
 // that the pass before kept. Follows proposal.wgsl.
 //
 // Facets are drawn in cells of the tile, each with a list of its own, in which they ascend from the plate upward. The
-// place in this list is what is peeled: every pass sees the same strict order. Both ends are found by blending, and
+// place in this list is peeled: every pass sees the same strict order. Both ends are found by blending, and
 // the facets counted, so neither a depth buffer nor a storage buffer is needed before the compute passes
 // (collect.wgsl).
 

@@ -81,7 +81,7 @@ pub enum VariableLayers {
     Yes,
     /// It takes one thickness for all layers, or fails.
     No,
-    /// Nobody has told: `cusp calibrate layers` makes a print that does.
+    /// Unknown: `cusp calibrate layers` makes a print that shows it.
     #[default]
     Untried,
 }
@@ -121,7 +121,7 @@ impl Printer {
         self.machine.as_deref().unwrap_or(&self.model)
     }
 
-    /// Checks what the type does not.
+    /// Checks the bounds that the types do not.
     ///
     /// # Errors
     /// The name of the field that is out of bounds.

@@ -51,7 +51,7 @@ pub enum Warning {
         /// Holes that were closed.
         holes: usize,
     },
-    /// Objects of a 3MF are not printed: supports of other programs, surfaces, and what a user turned off.
+    /// Objects of a 3MF are not printed: supports of other programs, surfaces, and objects that a user turned off.
     SkippedObjects {
         /// Number of such objects.
         objects: usize,
@@ -195,12 +195,12 @@ pub enum Warning {
         /// The best uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
     },
-    /// Nobody has told whether the printer prints layers of several thicknesses.
+    /// It is not known if the printer prints layers of several thicknesses.
     UntriedThicknesses {
         /// Make and model of the printer.
         model: String,
     },
-    /// Nobody has told whether these slicers print the layers of a plan as they are.
+    /// It is not known if these slicers print the layers of a plan unchanged.
     UntriedSlicer {
         /// Names of the slicers.
         slicers: Vec<&'static str>,
@@ -227,7 +227,7 @@ impl Warning {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })
     }
 
-    /// The sentences about what was read.
+    /// The sentences about reading a model.
     fn of_reading(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::DegenerateFacets { facets } => {
@@ -273,7 +273,7 @@ impl Warning {
         }
     }
 
-    /// The sentences about what no mask shows.
+    /// The sentences about parts that no mask shows.
     fn of_vanishing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::MissedBodies {

@@ -287,7 +287,7 @@ impl PrintJob<'_> {
         print_time_s(self.resin, self.layers)
     }
 
-    /// The build volume of the printer in x, y and z, or what the job needs, in millimetres.
+    /// The build volume of the printer in x, y and z, or the volume that the job needs, in millimetres.
     fn volume_mm(&self) -> [f64; 3] {
         let [x_mm, y_mm] = self.screen.size_mm();
         self.printer

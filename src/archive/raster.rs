@@ -5,7 +5,7 @@ use crate::mask::Run;
 /// Calls `emit(level, pixels)` for every run of a screen of `area` pixels, dark ones included. Neighbours of one level are one
 /// run, also across the ends of rows.
 ///
-/// `level` turns a brightness of 8 bits into what the format stores; it turns 0 into 0. `longest` is the longest run of a level
+/// `level` converts a brightness of 8 bits to the format's levels, and 0 to 0. `longest` is the longest run of a level
 /// that the format can store; longer ones come in parts.
 pub(super) fn for_each_run(
     runs: impl Iterator<Item = Run>,

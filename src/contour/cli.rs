@@ -24,7 +24,7 @@ impl<'a, W: Write> Cli<'a, W> {
         let (min, max) = (heading.bounds.min, heading.bounds.max);
         let numbers =
             [min.x, min.y, min.z, max.x, max.y, max.z].map(|number| shown(number).to_string());
-        // Every command ends at white space, and a label at a comma: what a name has of them is replaced.
+        // Every command ends at white space, and a label at a comma: these are replaced in names.
         let is_plain = |character: char| !character.is_control() && !"$/,".contains(character);
         let label = heading
             .title

@@ -1,7 +1,8 @@
 //! Leaves out points of contours, within a tolerance.
 //!
 //! Each ring is simplified by itself (Ramer, Douglas, Peucker): a chain of points is replaced by a segment from its first to its last point
-//! if none is farther than the tolerance from it. Then the whole chain is near the segment, as what is near a segment is convex; and the
+//! if none is farther than the tolerance from it. Then the whole chain is near the segment, as the points near a
+//! segment are a convex set; and the
 //! segment is near the chain, as the chain projects onto all of it. So the bound holds in both directions.
 //!
 //! Rings could now touch, cross or change sides. Segments that touch others get their chains back, and rings that others would change
@@ -12,7 +13,7 @@ use super::{Polygon, Ring};
 type Point = [i32; 2];
 
 /// Simplifies the polygons of a section. No point of the result is farther than `tolerance`, in steps, from the outline before, and none of
-/// the outline before is farther than that from the result. Rings stay simple, and inside what they were inside.
+/// the outline before is farther than that from the result. Rings stay simple, and inside the same rings as before.
 pub(super) fn simplify(polygons: Vec<Polygon>, tolerance: f64) -> Vec<Polygon> {
     // 0, or none at all.
     if !matches!(

@@ -86,7 +86,7 @@ impl<'a, W: Write> Svg<'a, W> {
     }
 }
 
-/// Text as XML has it. What XML cannot have is replaced.
+/// Text, escaped for XML. Characters that XML does not allow are replaced.
 fn escaped(text: &str) -> String {
     let mut escaped = String::new();
     for character in text.chars() {

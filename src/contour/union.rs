@@ -1,4 +1,4 @@
-//! The union of the bodies in a section: what has a non-zero winding number, as in the LDI.
+//! The union of the bodies in a section: the points with a non-zero winding number, as in the LDI.
 
 use i_overlay::core::fill_rule::FillRule;
 use i_overlay::core::overlay::{IntOverlayOptions, Overlay};

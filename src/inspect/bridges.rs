@@ -232,7 +232,7 @@ impl Layer<'_> {
     }
 }
 
-/// Rows without what is held in each.
+/// Rows without the pixels that are held in each.
 fn without_each(rows: &Rows, held: &mut dyn FnMut(i32, &mut Vec<Span>)) -> Rows {
     let mut rest = Rows::default();
     let (mut of_row, mut less) = (Vec::new(), Vec::new());

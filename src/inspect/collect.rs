@@ -148,7 +148,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// Adds a finding, unless nobody looks for its kind.
+    /// Adds a finding, unless its kind is ignored.
     pub fn add(&mut self, finding: Finding) {
         if !self.limits.looks_for(finding.code) {
             return;

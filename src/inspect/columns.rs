@@ -10,7 +10,7 @@ use super::limits::Limits;
 use super::rows::{Disc, ROUNDING, Rest, Rows};
 use crate::mask::{Masks, Until};
 
-/// The masks of short columns: lit ones, and dark ones. There are none of a kind that nobody looks for.
+/// The masks of short columns: lit ones, and dark ones. Masks of an ignored kind are empty.
 pub(super) fn short(masks: &Masks, frame: &Frame<'_>, limits: &Limits) -> [Masks; 2] {
     let wanted = |code, limit_mm| {
         let is_wanted = limits.looks_for(code);

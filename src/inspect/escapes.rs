@@ -70,8 +70,8 @@ pub(super) fn rooms(lit: &Rows, disc: &Disc, extents: &Extents) -> Gaps {
 /// Rows of a layer that are looked at together.
 const BLOCK_ROWS: i32 = 8;
 
-/// A layer, and the columns that are lit in blocks of its rows. A disc that must fit spans many rows, and few of these take anything
-/// away that others have left: blocks tell which.
+/// A layer, and the columns that are lit in blocks of its rows. A disc that must fit spans many rows, and few of these
+/// take away anything that is left by the others: blocks show which rows do.
 struct Blocks<'a> {
     lit: &'a Rows,
     columns: Rows,
@@ -179,7 +179,7 @@ impl<'a> Escapes<'a> {
         hollows: &Hollows<'_>,
     ) {
         let components = &rooms.components;
-        // The plate does not stay: what is open to it drains.
+        // The plate does not stay: rooms that are open to it drain.
         let on_plate = if layer == 0 {
             components.patches.len()
         } else {

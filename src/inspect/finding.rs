@@ -107,8 +107,8 @@ pub struct Finding {
     pub layers: [usize; 2],
     /// Its largest area in a layer, in mm².
     pub area_mm2: f64,
-    /// Its volume in mm³: what is lit of a body or an island until it joins another, the dark in a cup or a trap,
-    /// and of a small escape the dark with room for the limit.
+    /// Its volume in mm³: the lit volume of a body, or of an island until it joins another, the dark volume of a cup or
+    /// a trap, and of a small escape the dark volume with room for the limit.
     pub volume_mm3: f64,
     /// For islands, the layer that joins them with something else, from 0.
     pub joins_layer: Option<usize>,
@@ -126,7 +126,7 @@ impl Finding {
     }
 }
 
-/// One sentence that says what it is, and what to do.
+/// One sentence that states the finding, and what to do.
 impl Display for Finding {
     fn fmt(&self, f: &mut Formatter<'_>) -> fmt::Result {
         let [first, last] = self.layers.map(|layer| layer + 1);

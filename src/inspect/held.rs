@@ -60,7 +60,7 @@ impl Holds {
         }
     }
 
-    /// Takes what is theirs from pixels of a layer.
+    /// Removes the pixels within these cylinders from a layer.
     pub fn take_from(&self, rows: &mut Rows, layer: usize, frame: &Frame<'_>) {
         if rows.is_blank() {
             return;

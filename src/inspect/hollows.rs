@@ -2,7 +2,7 @@
 //!
 //! The part hangs from the plate, and the film is below its newest layer. A dark place that no dark passage through the layers
 //! so far joins with the outside, and that is open in the newest layer, sucks at the film: a cup. Once a layer covers the last
-//! opening, what is in it stays: a trap. Dark pixels of the first layer lie on the plate, which closes them.
+//! opening, the resin in it stays: a trap. Dark pixels of the first layer lie on the plate, which closes them.
 
 use super::collect::{Collector, Frame};
 use super::components::{Components, Extent, Patch};

@@ -1,4 +1,4 @@
-//! Layers as the checks see them: what can be told from a layer and the one below, many layers at a time.
+//! Layers as the checks see them: results from a layer and the one below, many layers at a time.
 
 use std::sync::Arc;
 

@@ -95,7 +95,7 @@ impl<'a> Sweep<'a> {
         self.peeling.advance(patches);
     }
 
-    /// The number of bodies, and what has to be peeled off.
+    /// The number of bodies, and the areas to be peeled off.
     pub fn finish(self, collector: &mut Collector<'_>) -> (usize, Peel) {
         let frame = self.frame;
         self.overhangs.finish(frame, collector);

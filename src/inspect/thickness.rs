@@ -11,7 +11,7 @@ use std::ops::Range;
 use super::rows::{Disc, FAR, Rest, Rows, Span, intersect, subtract};
 use crate::grid::Grid;
 
-/// Finds what is thinner than a limit.
+/// Finds pixels where the mask is thinner than a limit.
 pub(super) struct Thickness {
     /// The disc that must fit.
     disc: Disc,

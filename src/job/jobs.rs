@@ -1,4 +1,4 @@
-//! Models × copies on plates, with the last result of each stage and what it was made from.
+//! Models × copies on plates, with the last result of each stage and its inputs.
 
 use std::sync::Arc;
 
@@ -65,7 +65,7 @@ impl Job {
     }
 
     /// Searches in advance for the GPU that the next plan on [`Backend::Gpu`](super::Backend::Gpu) would search for. Drivers may
-    /// write to stderr during a search, and here a caller can silence them. The plan reports what was found.
+    /// write to stderr during a search, and here a caller can silence them. The plan reports the result.
     pub async fn open_gpu(&mut self) {
         self.sampler.open_gpu().await;
     }

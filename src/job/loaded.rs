@@ -1,4 +1,4 @@
-//! A model as it was read, and what is known of it in every pose.
+//! A model as it was read, with results that hold in every pose.
 
 use glam::Vec3;
 use web_time::Instant;
@@ -208,7 +208,7 @@ impl LoadedModel {
         Ok(self.known_weights(layering))
     }
 
-    /// The weights from what is known. Saliency that is not computed yet is left out.
+    /// The weights from results so far. Saliency that is not computed yet is left out.
     fn known_weights(&self, layering: &Layering) -> Option<Vec<f32>> {
         let saliency = self.saliency.as_ref().filter(|_| layering.saliency);
         if saliency.is_none() && self.painted.is_none() {

@@ -160,9 +160,9 @@ pub struct Options {
     /// narrower features are not changed. None if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_feature_mm: Option<f64>,
-    /// Minimum layer thickness. If absent, 0.05 mm, or, for filament printers, what the nozzle prints.
+    /// Minimum layer thickness. If absent, 0.05 mm, or the nozzle's limit for filament printers.
     pub layer_min_mm: Option<f64>,
-    /// Maximum layer thickness. If absent, 0.15 mm, or, for filament printers, what the nozzle prints.
+    /// Maximum layer thickness. If absent, 0.15 mm, or the nozzle's limit for filament printers.
     pub layer_max_mm: Option<f64>,
     /// Thickness of the first layer, whatever its error and the range of thicknesses. The tolerance holds above it. If absent,
     /// it is chosen like the others, or, for filament printers, half the width of the nozzle.

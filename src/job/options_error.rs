@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use crate::format::Format;
 
-/// Options that cannot be read, are out of bounds, contradict each other, or exceed what the printer can do.
+/// Options that cannot be read, are out of bounds, contradict each other, or exceed the printer's abilities.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

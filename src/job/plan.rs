@@ -22,8 +22,8 @@ use crate::progress::silent;
 
 impl Job {
     /// Arranges the copies, unless placements are given or there is only one, which stands in the middle, and plans the layers of each
-    /// plate. The error of a layer is the largest over the models that it reaches. After an error there is no plan; what was sampled
-    /// is kept.
+    /// plate. The error of a layer is the largest over the models that it reaches. After an error there is no plan;
+    /// samples are kept.
     ///
     /// # Errors
     /// Any [`Error`] of these stages; [`Error::Arrange`].
@@ -295,8 +295,8 @@ fn check_own(options: &JobOptions, resolved: &Resolved) -> Result<(), OptionsErr
     Ok(())
 }
 
-/// Checks the voids and supports that models have of their own. What is placed by hand for all is refused where there are several models,
-/// each of which has a frame of its own.
+/// Checks the voids and supports that models have of their own. Holes and contacts placed by hand for all models are
+/// refused if there are several, each of which has a frame of its own.
 fn check_own_prepared(
     options: &JobOptions,
     resolved: &Resolved,

@@ -256,12 +256,13 @@ pub struct UniformReport {
     pub fewest: Option<BestUniform>,
     /// Those within tolerance that print in the shortest time.
     pub quickest: Option<BestUniform>,
-    /// True if an adaptive plan saves less than 3 % against the best of these, by what the options minimize.
+    /// True if an adaptive plan saves less than 3 % against the best of these, in layers or in time, whichever the
+    /// options minimize.
     pub is_enough: bool,
 }
 
 impl UniformReport {
-    /// The best uniform layers within tolerance by what the options minimize.
+    /// The best uniform layers within tolerance, in layers or in time, whichever the options minimize.
     pub fn best(&self, minimize: Minimize) -> Option<&BestUniform> {
         match minimize {
             Minimize::Layers => self.fewest.as_ref(),

@@ -84,8 +84,8 @@ impl Job {
         models.all(|it| is_wanted(it.model, &it.sampled().sampling))
     }
 
-    /// Samples and measures each model in each of its turns, or reuses results that are still valid. After an error, what was sampled
-    /// until then is kept.
+    /// Samples and measures each model in each of its turns, or reuses results that are still valid. After an error,
+    /// the samples so far are kept.
     pub(super) async fn measure(
         &mut self,
         options: &JobOptions,

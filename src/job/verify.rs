@@ -277,7 +277,7 @@ fn check_itself(report: &Value) -> Result<(), VerifyError> {
     for (layer, (ends, thickness_mm)) in heights_mm.windows(2).zip(thicknesses_mm).enumerate() {
         let [bottom_mm, top_mm] = [&ends[0], &ends[1]].map(number);
         let apart_mm = (top_mm - bottom_mm - number(thickness_mm)).abs();
-        // Heights are rounded to the picometre. What is no number compares as neither.
+        // Heights are rounded to the picometre. NaN fails both comparisons.
         if !(top_mm > bottom_mm && apart_mm < 1e-6) {
             return Err(contradicts(&format!("z_mm[{}]", layer + 1)));
         }

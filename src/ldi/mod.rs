@@ -2,7 +2,7 @@
 //! (section 3.2).
 //!
 //! Both backends sample the mesh that [`projection`] makes by moving every vertex sideways by at most
-//! 1/512 pixel, and both return the same [`Ldi`], so nothing downstream can tell which one ran.
+//! 1/512 pixel, and both return the same [`Ldi`], so nothing downstream depends on the backend.
 
 mod assemble;
 pub mod cpu;
@@ -51,7 +51,7 @@ pub enum GpuFault {
 }
 
 impl GpuFault {
-    /// The fault, and what the system said of it.
+    /// The fault, with the system's message.
     pub(crate) fn in_words(self, system: Option<&str>) -> String {
         let fault = match self {
             Self::Error => "the system reports an error",

@@ -1,6 +1,7 @@
 //! The only rule that turns the hits of a ray into the height ranges in which the ray is inside.
 //!
-//! Inside means a non-zero winding number: overlapping bodies are a union, the orientation of facets decides what is a cavity,
+//! Inside means a non-zero winding number: overlapping bodies are a union, the orientation of facets decides which
+//! bodies are cavities,
 //! and bodies inside out that are no cavities have been turned over before (`model/bodies.rs`).
 
 use super::Hit;

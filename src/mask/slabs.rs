@@ -225,7 +225,8 @@ impl Reader<'_> {
     }
 }
 
-/// Calls `flip(sublayer, sign)` where a ray enters what is printed, and where it leaves it: see [`printed_crossings`].
+/// Calls `flip(sublayer, sign)` where a ray enters the printed solid, and where it leaves it: see
+/// [`printed_crossings`].
 fn flips_along(
     hits: &[Hit],
     classes: FacetClasses,

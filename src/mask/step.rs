@@ -60,7 +60,7 @@ pub(super) struct Step {
 }
 
 impl Step {
-    /// Shrinks by so much on each side, and leaves a least width; 0 for none.
+    /// Shrinks by `mm` on each side, and leaves a least width; 0 for none.
     pub fn new(mm: f64, least_mm: f64, grid: &Grid) -> Self {
         let pitch_mm = [grid.pitch_mm, grid.pitch_y_mm];
         let pixels = |pitch_mm: f64| (least_mm / pitch_mm * (1.0 - ROUNDING)).ceil() as i32;

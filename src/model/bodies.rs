@@ -1,7 +1,7 @@
 //! The bodies of a mesh, and which of them are inside out.
 //!
-//! A body that is inside out is a cavity where it lies in another, and a mistake where it does not: what it shares with another body
-//! would be a void.
+//! A body that is inside out is a cavity where it lies in another, and a mistake where it does not: its overlap with
+//! another body would be a void.
 
 use glam::DVec3;
 

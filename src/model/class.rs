@@ -1,6 +1,6 @@
 //! Classes of facets, and how they decide which points are printed.
 
-/// The class of a facet: what it belongs to. A mesh stores its facets in this order.
+/// The class of a facet. A mesh stores its facets in this order.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord)]
 pub enum FacetClass {
     /// The surface of the model. Profiles measure these facets alone.

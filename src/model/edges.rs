@@ -14,7 +14,7 @@ pub enum Across {
     Several,
 }
 
-/// For each facet, what is across its edges; edge i runs from corner i to the next.
+/// For each facet, its neighbours across its edges; edge i runs from corner i to the next.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Neighbours(Vec<[u32; 3]>);
 

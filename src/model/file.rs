@@ -1,4 +1,4 @@
-//! The identity of a model's file, and what is known from it besides the triangles.
+//! The identity of a model's file, and facts about it besides the triangles.
 
 use serde::{Deserialize, Serialize};
 

@@ -105,8 +105,8 @@ pub struct Mesh {
 const MAX_SIDE_MM: f64 = 1e6;
 
 impl Mesh {
-    /// Welds equal corners, separates facets without area, closes holes, and turns over what is inside out: the mesh as a whole, or
-    /// bodies that are no cavities.
+    /// Welds equal corners, separates facets without area, closes holes, and turns over whatever is inside out: the
+    /// mesh as a whole, or bodies that are no cavities.
     ///
     /// Corners are welded if their coordinates are equal numbers (-0 equals 0). A hole is closed by a fan
     /// around the centroid of its loop.
@@ -466,8 +466,8 @@ fn keep_joining_slivers(facets: &mut Vec<[u32; 3]>, flat: Vec<[u32; 3]>, vertex_
 /// Roundings of a coordinate within which a vertex lies on an edge: text files have fewer digits than single precision.
 const NEAR_ROUNDINGS: f64 = 16.0;
 
-/// Roundings of a coordinate within which the height of a needle of a facet tells nothing about its slope: its normal may be off by
-/// several degrees.
+/// Roundings of a coordinate within which the height of a needle of a facet does not determine its slope: its normal
+/// may be off by several degrees.
 const NEEDLE_ROUNDINGS: f64 = 64.0;
 
 /// Least ratio of length to height at which a facet counts as a needle.

@@ -46,7 +46,7 @@ pub(super) struct Found {
     pub cups_mm2: f64,
 }
 
-/// A direction, and what is printed along it.
+/// A direction, with the heights and masks of a print along it.
 pub(super) struct Along<'a> {
     pub up: DVec3,
     /// Height of the model.

@@ -12,7 +12,7 @@ const PER_CELL: usize = 4;
 pub(super) struct Overlaps {
     /// The body of each facet, by one of its vertices.
     body_of: Vec<u32>,
-    /// For each vertex that stands for a body, whether the body encloses what is not solid.
+    /// For each vertex that stands for a body, true if the body is a cavity.
     is_cavity: Vec<bool>,
     lattice: Lattice,
     /// The facets that reach into each cell.

@@ -2,8 +2,8 @@
 
 use super::{Candidate, Exclusion, Metrics};
 
-/// Numbers per candidate: its direction, rotation and size, its energy, why it is excluded, and its metrics, in the order of their
-/// fields. What is absent is not a number; in place of a direction that is not measured, none is one.
+/// Numbers per candidate: its direction, rotation and size, its energy, why it is excluded, and its metrics, in the
+/// order of their fields. Absent values are NaN; a candidate whose direction is not measured is all NaN.
 pub const NUMBERS: usize = 3 + 4 + 3 + 1 + 1 + METRICS;
 
 /// Numbers of metrics.
@@ -51,7 +51,7 @@ pub fn pack<'a>(candidates: impl ExactSizeIterator<Item = Option<&'a Candidate>>
     numbers
 }
 
-/// Candidates from their numbers. What does not make up one is left out.
+/// Candidates from their numbers. An incomplete candidate is left out.
 pub fn unpack(numbers: &[f64]) -> Vec<Candidate> {
     let (places, _) = numbers.as_chunks::<NUMBERS>();
     let candidates = places.iter().map(|place| {

@@ -293,7 +293,8 @@ impl Surface {
         let (mut overhang_mm2, mut roughness) = (0.0, [0.0; LANES]);
         let mut supports = Estimate::new(profile);
         let facing_down = supports.least_n_z().max(-OVERHANG);
-        // Block by block, as most have no facet that faces down or reaches so far, and what all need is a short loop of its own.
+        // Block by block, as most have no facet that faces down or reaches that low, and the work on all facets is a
+        // short loop of its own.
         let blocks = facet_bins
             .spans
             .chunks(BLOCK)
@@ -368,7 +369,7 @@ fn which<T>(block: &[T], is_so: impl Fn(&T) -> bool) -> Places {
     // In most blocks there are none, and a loop that only looks for any is vectorised.
     if block.iter().fold(false, |any, it| any | is_so(it)) {
         for (place, it) in (0..).zip(block) {
-            // No branch, as nobody can predict it.
+            // No branch, which would be unpredictable.
             found.places[found.count % BLOCK] = place;
             found.count += usize::from(is_so(it));
         }
@@ -384,7 +385,8 @@ fn add_roughness(
     squares: &[f32],
     areas_mm2: &[f32],
 ) {
-    // One after the other, so that the compiler can vectorise all but the first. What is beyond the last facet adds nothing.
+    // Loops one after the other, so that the compiler can vectorise all but the first. Lanes beyond the last facet add
+    // nothing.
     let mut thicknesses = [0.0; BLOCK];
     for (thickness, &[first, last]) in thicknesses.iter_mut().zip(spans) {
         *thickness = sums[last as usize + 1] - sums[first as usize];

@@ -114,8 +114,8 @@ impl Layer<'_> {
 }
 
 /// For each number of layers, from 0 up to the least that may fill a segment, the planes at which that many may end and fewer may not:
-/// those that the layers below may reach, and from which the layers above may reach the top. `is_within` tells whether the layer between two planes is
-/// within tolerance; if one is, every layer within it is too.
+/// those that the layers below may reach, and from which the layers above may reach the top. `is_within` returns true
+/// if the layer between two planes is within tolerance; if one is, every layer within it is too.
 ///
 /// No plan has fewer layers. One that has as many has only these planes; there need not be one. `None` if it is certain that none
 /// reaches the top.

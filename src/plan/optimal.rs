@@ -282,7 +282,7 @@ fn fill_fewest_by<Mark: Copy>(
         let highest = plane - least;
         let [layers, missed, worst] = table.at(highest);
         if layers != Table::NO_PLAN {
-            // With the prices and weights of all snap planes above: a layer on top costs 1, less what is above it.
+            // With the prices and weights of all snap planes above: a layer on top costs 1, less those above its top.
             let [price, weight] = preferred.above(highest);
             queue.push(Candidate {
                 plane: highest,

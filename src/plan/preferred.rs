@@ -1,4 +1,4 @@
-//! Planes that a plan prefers, and what it costs to do without one.
+//! Planes that a plan prefers, and the cost of omitting one.
 
 use super::segment::Segment;
 use crate::order::ascending;

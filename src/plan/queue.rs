@@ -68,8 +68,8 @@ impl<Cost: Copy + Ord, Mark: Copy> Queue<Cost, Mark> {
     }
 
     /// The best candidate below a plane, as its cost, its plane, and the smallest maximum error with the layer on top. The plane is above
-    /// those of all calls before. `is_passed` tells whether the layer from a candidate is too thick or beyond tolerance; `error_from` is
-    /// its error in steps.
+    /// those of all calls before. `is_passed` returns true if the layer from a candidate is too thick or beyond
+    /// tolerance; `error_from` returns its error in steps.
     #[inline]
     pub fn best(
         &mut self,

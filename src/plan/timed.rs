@@ -1,5 +1,5 @@
-//! The shortest print by dynamic programming. The first layers of a print take the bottom exposure whatever their thickness, so
-//! what a layer costs depends on how many are below it.
+//! The shortest print by dynamic programming. The first layers of a print take the bottom exposure whatever their
+//! thickness, so the cost of a layer depends on the number below it.
 
 use super::optimal::{Stuck, Table, layers_above, tops};
 use super::preferred::{ByHeight, Preferred};
@@ -7,7 +7,7 @@ use super::segment::{Segment, boundaries_below};
 use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
 
-/// Bottom layers that are told apart; any more of them cost as much as layers above.
+/// Number of bottom layers that are counted; any beyond them cost as much as layers above.
 pub(crate) const MOST_BOTTOM_LAYERS: usize = 100;
 
 /// Plans up to the planes of a segment, by the layers below.

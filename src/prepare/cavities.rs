@@ -26,7 +26,7 @@ pub(super) struct Cavities {
     below: Vec<u32>,
 }
 
-/// No cavity: what is below is outside.
+/// No cavity: the gap is outside.
 const NONE: u32 = u32::MAX;
 
 impl Cavities {

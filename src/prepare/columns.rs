@@ -1,8 +1,8 @@
 //! A solid as height ranges over a lattice of columns, and distances to it slice by slice.
 //!
 //! A column is a vertical line through the centre of a square of `pitch_mm`. Along columns heights are exact; from one column to the
-//! next the solid is known to a column. So the distance to it, or to what is outside it, is found at most a pitch too long, and half a
-//! pitch on average.
+//! next the solid is known to a column. So the distance to it, or to the outside, is found at most a pitch too long,
+//! and half a pitch on average.
 
 use crate::ldi::{Ldi, model_ranges};
 use crate::parallel;
@@ -226,7 +226,8 @@ impl Columns {
         slice
     }
 
-    /// The squares of the distances within the columns, and the rows in which any differs from what is beyond the columns.
+    /// The squares of the distances within the columns, and the rows in which any differs from the space beyond the
+    /// columns.
     fn along_z(&self, to: To, z_mm: f32) -> (Vec<f32>, Vec<bool>) {
         let mut squares = Vec::with_capacity(self.width * self.height);
         let mut has_any = vec![false; self.height];

@@ -223,8 +223,8 @@ const ROOM: f32 = 2.0;
 /// The least distance of a hole from the plate, which would close it.
 const ABOVE_PLATE_MM: f32 = 0.2;
 
-/// Places a hole that drains a basin by the shortest way, first of those that end where nothing is spared: level or slanting down, since what a hole leads up
-/// to stays full. `None` if there is no such way.
+/// Places a hole that drains a basin by the shortest way, first of those that end on facets that are not spared: level
+/// or slanting down, since a hole that leads up would leave resin in. `None` if there is no such way.
 pub(super) fn place(
     model: &Columns,
     lattice: &Lattice,

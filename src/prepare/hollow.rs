@@ -1,9 +1,10 @@
-//! Hollowing: what of a model is so deep inside that it need not be printed.
+//! Hollowing: the void deep inside a model, which need not be printed.
 //!
-//! The model is known by the height ranges of columns (`columns.rs`), as overlapping bodies are: one solid. What is at least a wall and half a
-//! cavity away from the outside is the core of the void; the void is all that is within half a cavity of that core. So every point of it is in a
-//! ball of the cavity's diameter that is void as well, walls are thick enough wherever the void ends, and narrow places, which would hold
-//! resin, stay solid. Struts of a lattice are left standing in it.
+//! The model is known by the height ranges of columns (`columns.rs`), as overlapping bodies are: one solid. The points
+//! at least a wall and half a cavity away from the outside are the core of the void; the void is all that is within
+//! half a cavity of that core. So every point of it is in a ball of the cavity's diameter that is void as well, walls
+//! are thick enough wherever the void ends, and narrow places, which would hold resin, stay solid. Struts of a lattice
+//! are left standing in it.
 //!
 //! A cavity of the model that lies so deep is joined to the void: the walls that the void keeps from the outside it does not keep from
 //! such a cavity, around which it would leave a loose shell (`cavities.rs`).
@@ -153,7 +154,7 @@ pub struct Void {
     pub closed: Option<Closed>,
 }
 
-/// Columns in the thickness of a wall: what they do not resolve is at most an eighth of it.
+/// Columns in the thickness of a wall: the error of a column is at most an eighth of it.
 const COLUMNS_OF_WALL: f64 = 8.0;
 
 /// Columns in the thickness of a strut.

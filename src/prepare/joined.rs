@@ -18,7 +18,7 @@ pub struct Closed {
     pub at_mm: [f64; 3],
 }
 
-/// The smallest cavity that is worth a word: what a trap takes by the checks' own limits.
+/// The smallest cavity that is reported: the least volume of a trap by the checks' own limits.
 const LEAST_CAVITY_MM3: f64 = 1.0;
 
 /// A model with the cavities that are joined to its void.
@@ -33,8 +33,8 @@ pub(super) struct Joined {
     pub core: Columns,
 }
 
-/// Joins the cavities that the core of the void meets once they are filled: what they are joined by is as wide as the smallest cavity.
-/// If `depth_mm` is absent, the void has no core, and all cavities are joined.
+/// Joins the cavities that the core of the void meets once they are filled: the passages between them are as wide as
+/// the smallest cavity. If `depth_mm` is absent, the void has no core, and all cavities are joined.
 pub(super) fn joined(
     model: Columns,
     cavities: &Cavities,

@@ -1,6 +1,7 @@
 //! Preparation of a posed model before it is sampled: voids and supports, as bodies of their own class.
 //!
-//! They are never cut from the model or joined with it: [`crate::model::Winding`] decides along each ray what is printed.
+//! They are never cut from the model or joined with it: [`crate::model::Winding`] decides along each ray which ranges
+//! are printed.
 
 mod basins;
 mod cavities;

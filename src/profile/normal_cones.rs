@@ -24,7 +24,7 @@ pub struct Cone {
 /// The cones in which normals are more upright than on the facets themselves: at a ridge or valley `n_z²` is 1 − `e_z²`, with e the
 /// unit vector along the edge; at peaks, pits and saddles it is 1.
 ///
-/// An edge of more than two facets counts as a ridge. What caps have a part in is left out.
+/// An edge of more than two facets counts as a ridge. Edges of caps are left out.
 ///
 /// Cost: linear in facets.
 pub fn cones(mesh: &Mesh, bins: Bins) -> Vec<Cone> {

@@ -69,7 +69,7 @@ impl Shapes {
                 steepest: exact,
                 areas_mm2: Vec::new(),
             },
-            // Rays meet facets, not what is between them.
+            // Rays meet facets, not the edges between them.
             sampled: Shape {
                 bins,
                 cones: sampled.clone(),

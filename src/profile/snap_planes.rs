@@ -67,7 +67,7 @@ fn sharp_changes(steepest: &[f32], bins: Bins) -> Vec<(u32, f64)> {
     sharp
 }
 
-/// Boundaries by what they are worth, of equals the lowest first. They come in ascending order.
+/// Boundaries in descending order of their worth, of equals the lowest first. They come in ascending order.
 fn largest_first(boundaries: &[(u32, f64)]) -> Vec<u32> {
     let order = ascending(boundaries.iter().map(|&(_, worth)| -worth));
     order.into_iter().map(|place| boundaries[place].0).collect()

@@ -73,7 +73,8 @@ impl Weighted {
         Self::new(facet_bins, &[], metric, weights, |_| false, maxima)
     }
 
-    /// `maxima` finds the maximum of a value of facets in each bin, and `counts` tells for which facets cones count.
+    /// `maxima` finds the maximum of a value of facets in each bin, and `counts` returns true for facets whose cones
+    /// count.
     fn new<E>(
         facet_bins: &FacetBins,
         cones: &[Cone],

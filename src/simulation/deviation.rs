@@ -18,7 +18,7 @@ pub struct Deviation {
     pub layers: Vec<LayerDeviation>,
 }
 
-/// The distances of points of one layer. What a layer has no points for is absent.
+/// The distances of points of one layer. Values are absent if the layer has no points for them.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct LayerDeviation {

@@ -22,8 +22,8 @@ pub(super) enum Visibility {
     Mixed,
 }
 
-/// Points this far from both sides of a facet tell whether it is hidden, in millimetres. Ten times the error of single
-/// precision at 100 mm.
+/// Distance of the points on both sides of a facet that decide if it is hidden, in millimetres. Ten times the error of
+/// single precision at 100 mm.
 const OFFSET_MM: f64 = 1e-4;
 /// Facets closer than this meet, in millimetres.
 const TOUCH_MM: f64 = 1e-5;

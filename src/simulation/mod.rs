@@ -36,7 +36,7 @@ use hidden::Visibility;
 use nearest::Facets;
 use printed::Printed;
 
-/// Knowledge about a print file besides what it says. Given values take precedence over the file's.
+/// Knowledge about a print file besides its contents. Given values take precedence over the file's.
 #[derive(Debug, Clone, Default)]
 pub struct Knowledge {
     /// The pose of each model before turns.

@@ -5,7 +5,8 @@
 //! nearest to the middle bounds the whole triangle. Where this exceeds neither the greatest distance of all so far by more than
 //! [`precision_mm`], nor that of the triangle's layers by more than twice as much, nothing else is asked; elsewhere the
 //! triangle is split into four, again and again. Facets that are not on the surface of the
-//! solid are left out, and where facets meet also what is shown of a triangle of a few pixels whose middle and corners are not.
+//! solid are left out; so are, where facets meet, the visible parts of a triangle of a few pixels whose middle and
+//! corners are hidden.
 
 use glam::DVec3;
 

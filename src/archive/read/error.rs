@@ -135,7 +135,7 @@ pub enum PrintFileError {
         /// The largest size allowed.
         most_bytes: u64,
     },
-    /// A setting is missing, or is not what it must be.
+    /// A setting is missing or invalid.
     #[error("its {file} does not say {setting} in a form that can be read; export it again")]
     BadSetting {
         /// Name in the zip, or of the table in a binary file.
@@ -214,7 +214,7 @@ pub enum LayerFault {
         /// Rows that it should have.
         rows: u32,
     },
-    /// Its data is said to be where the file has ended.
+    /// Its data lies beyond the end of the file.
     #[error("its data ends at byte {end_byte}, and the file at byte {file_bytes}")]
     OutsideFile {
         /// End of the data in the file.

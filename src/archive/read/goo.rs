@@ -109,8 +109,8 @@ fn about(fields: Fields<'_>, version: String) -> Result<About, PrintFileError> {
     })
 }
 
-/// The volume is in mm³ by the specification, and in ml as some programs write it: the weight tells, since a millilitre of
-/// resin weighs about a gram.
+/// The volume is in mm³ by the specification, and in ml as some programs write it: the weight decides, since a
+/// millilitre of resin weighs about a gram.
 fn volume_ml(volume: Option<f64>, weight_g: Option<f64>) -> Option<f64> {
     let is_in_ml = |volume: f64| weight_g.is_some_and(|weight_g| weight_g > 0.1 * volume);
     let volume = volume?;

@@ -1,5 +1,5 @@
-//! Print files as their readers see them: what the settings say, and the masks. Each format has a file of its own; nothing
-//! here is shared with the code that writes print files, so that each checks the other.
+//! Print files as their readers see them: metadata and masks. Each format has a file of its own; no code is shared with
+//! the encoders, so that each checks the other.
 //!
 //! ```
 //! use cusp_slicer::archive::read::PrintFile;
@@ -96,7 +96,7 @@ struct Contents {
 }
 
 impl Contents {
-    /// Takes out exposures and nominal values that are not finite, as if they were not stated, and keeps what was found.
+    /// Takes out exposures and nominal values that are not finite, as if they were not stated, and keeps the findings.
     fn take_not_finite(&mut self) {
         let found = finding::take_not_finite(&mut self.about, &mut self.layers);
         self.findings.splice(0..0, found);

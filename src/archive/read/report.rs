@@ -1,4 +1,4 @@
-//! Inspection: all layers decoded, and what was found.
+//! Inspection: all layers decoded, and the findings.
 
 use serde::Serialize;
 
@@ -71,7 +71,7 @@ struct Light {
 /// Decodes all layers and previews of a file.
 ///
 /// # Errors
-/// [`Cancelled`], if the progress callback asks for it. What is wrong with the file is in [`Inspection::warnings`].
+/// [`Cancelled`], if the progress callback asks for it. Faults of the file are in [`Inspection::warnings`].
 pub fn inspect(file: &PrintFile<'_>, progress: &mut Progress<'_>) -> Result<Inspection, Cancelled> {
     look_through(file, None, progress)
 }

@@ -10,8 +10,8 @@ const CELLS: f64 = 160.0;
 const LEVEL: f32 = 0.3;
 
 /// The surface of layers with these masks, from the plate upward, as facets: nine numbers each, in millimetres, with the middle
-/// of the masks at x = y = 0, counter-clockwise seen from outside. It is about as coarse as a 160th of the longest side; what is
-/// thinner than a third of that may be missing.
+/// of the masks at x = y = 0, counter-clockwise seen from outside. Its resolution is about a 160th of the longest side;
+/// features thinner than a third of that may be missing.
 ///
 /// `pixels` are columns and rows, and `pixel_mm` the sides of a pixel, both as the masks have them.
 pub fn surface(layers: &[Layer], masks: &[Mask], pixels: [u32; 2], pixel_mm: [f64; 2]) -> Vec<f32> {

@@ -1,8 +1,8 @@
 //! Anycubic's zips of 2024 and later, pm7 and pwsz for example: masks in pw0, settings as JSON with a thickness and an
 //! exposure for each layer, and a table of the layers' areas.
 //!
-//! Firmware is said to be strict about types of numbers. What is a fraction in files of Anycubic's own slicer is written
-//! with a decimal point, `46.0` say, and what is an integer there, without.
+//! Firmware is said to be strict about types of numbers. Values that are fractions in files of Anycubic's own slicer
+//! are written with a decimal point, `46.0` say, and values that are integers there, without.
 
 use serde_json::{Value, json};
 

@@ -291,7 +291,7 @@ pub fn outputs_in(
         let mut name = name.to_owned();
         name.push(".");
         name.push(extension);
-        // Some file systems do not tell small letters from capitals.
+        // Some file systems ignore case.
         if let Some(other) = known.insert(name.to_string_lossy().to_lowercase(), model) {
             let (other, model) = (other.display(), model.display());
             let output = folder.join(&name);

@@ -64,7 +64,7 @@ pub enum Calibrating {
 }
 
 impl Calibrating {
-    /// Returns true if a program reads what is printed.
+    /// Returns true if a program reads the output.
     pub fn is_json(&self) -> bool {
         match self {
             Self::Layers { json, .. } | Self::Exposure { json, .. } | Self::Resin { json, .. } => {

@@ -16,7 +16,7 @@ use crate::progress::Bar;
 use crate::terminal::{print, print_json};
 use crate::watch::stop_on_interrupt;
 
-/// Models, and what a shop accepts.
+/// Models, and the limits of a shop.
 #[derive(Args)]
 pub struct Checking {
     #[command(flatten)]

@@ -128,7 +128,7 @@ impl Failure {
         self.exit_code == INTERRUPTED
     }
 
-    /// The same for programs; `None` if it has already been shown, and for an interrupt, which the exit code tells.
+    /// The failure as JSON; `None` if it has already been shown, and for an interrupt, which the exit code shows.
     pub fn told(self) -> Option<Failed> {
         Some(Failed {
             error: *self.problem?,
@@ -156,7 +156,7 @@ pub fn is_standard(path: &Path) -> bool {
     path == Path::new("-")
 }
 
-/// True if a program reads what is printed.
+/// True if a program reads the output.
 pub static IS_JSON: AtomicBool = AtomicBool::new(false);
 
 /// Says why a command failed, once, and returns its exit code.

@@ -1,4 +1,4 @@
-//! Says what is in a print file, and whether it is whole.
+//! Shows the contents of a print file, and checks that it is whole.
 
 use std::path::{Path, PathBuf};
 

@@ -40,7 +40,7 @@ impl Bar {
         self.bar.suspend(print)
     }
 
-    /// Shows what is being done, and which fraction of the whole task is.
+    /// Shows the current step, and the fraction of the whole task that is done.
     pub fn show(&self, name: impl Into<Cow<'static, str>>, done: f64) -> ControlFlow<()> {
         self.bar.set_message(name);
         let steps = self.bar.length().unwrap_or_default() as f64;

@@ -1,4 +1,4 @@
-//! Measures what a print file prints against the model.
+//! Measures the print of a print file against the model.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -42,7 +42,7 @@ pub struct Simulating {
     /// The plate of the job file, from 1, where the print file does not say where its copies stand
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u32).range(1..))]
     job_plate: u32,
-    /// True if the masks are mirrored left to right [default: what the print file says]
+    /// True if the masks are mirrored left to right [default: as the print file says]
     #[arg(long, value_name = "BOOL")]
     mirror: Option<bool>,
 }

@@ -12,7 +12,7 @@ use crate::visible::{visible, visible_lines};
 /// True if standard output carries a file, so that nothing else may go there.
 static STDOUT_IS_TAKEN: AtomicBool = AtomicBool::new(false);
 
-/// From here on, standard output carries a file: what is printed for people goes to stderr.
+/// From here on, standard output carries a file: text for people goes to stderr.
 pub fn take_stdout() {
     STDOUT_IS_TAKEN.store(true, Ordering::Relaxed);
 }
@@ -75,7 +75,7 @@ pub fn duration(seconds: f64) -> String {
 }
 
 /// Searches for the GPU that the next plan uses, and silences drivers meanwhile. Mesa, for example, complains about a missing
-/// display although nothing is displayed. The plan reports what the search found.
+/// display although nothing is displayed. The plan reports the result.
 pub fn open_gpu(job: &mut Job) {
     #[cfg(unix)]
     let _silence = Silence::begin();

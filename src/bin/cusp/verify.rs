@@ -25,7 +25,7 @@ use crate::usage::wrong_usage;
 use crate::values::positive;
 use crate::watch::stop_on_interrupt;
 
-/// A plan, what it was made from, and what a shop accepts.
+/// A plan, the files that it was made from, and the limits of a shop.
 #[derive(Args)]
 pub struct Verifying {
     /// Plan from `cusp plan --json` or from the page, or the manifest of a zip of masks
@@ -39,10 +39,11 @@ pub struct Verifying {
     /// File of weights that the plan was made with
     #[arg(long, value_name = "FILE")]
     weights: Option<PathBuf>,
-    /// Check what will fail when it is printed, by the thresholds and severities of this file: what is rejected is no correct plan
+    /// Check that it can be printed, by the thresholds and severities of this file: a plan that is rejected is not
+    /// correct
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,
-    /// Say what it costs, by the prices of this file
+    /// Show its price, by the prices of this file
     #[arg(long, value_name = "FILE.json")]
     prices: Option<PathBuf>,
     /// Take about this much memory at most, as 1GB or 512MiB: a plan may ask for more than it is worth
@@ -240,7 +241,7 @@ impl Verifying {
         Ok(read)
     }
 
-    /// Prints what a plan is worth, and says by the exit code whether it is accepted.
+    /// Prints the checks and the price of a plan, and sets the exit code by its acceptance.
     fn show(&self, verified: &Verified, correct: String) -> Result<(), Failure> {
         let found = verified
             .plates

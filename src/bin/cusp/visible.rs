@@ -1,4 +1,4 @@
-//! Text from outside in what is printed: characters that act on a terminal, or turn a line around, are shown and not obeyed.
+//! Text from outside in the output: characters that act on a terminal, or turn a line around, are shown and not obeyed.
 
 use std::borrow::Cow;
 use std::fmt::Write as _;

@@ -1,6 +1,7 @@
 //! Watches over a command while it works: interrupts, and the processor time and memory that it takes.
 //!
-//! Stages stop by themselves when they next report progress. What does not report in time is ended here, with its temporary files.
+//! Stages stop by themselves when they next report progress. A stage that does not report in time is ended here, with
+//! its temporary files.
 
 use std::fs;
 use std::path::{Path, PathBuf};
@@ -68,7 +69,7 @@ fn handle_signals() {
     }
 }
 
-/// Elsewhere nothing tells which signals are ignored: if any is, none is handled.
+/// Elsewhere the ignored signals are not known: if any is ignored, none is handled.
 #[cfg(not(target_os = "linux"))]
 fn handle_signals() {
     let _ = ctrlc::try_set_handler(|| INTERRUPTED.store(true, Ordering::Relaxed));
@@ -95,7 +96,7 @@ fn exceeded(cpu_time_s: Option<f64>, memory_bytes: Option<u64>) -> Option<Error>
     if let Some(allowed_s) = cpu_time_s {
         let taken_s = taken_cpu_s();
         if taken_s > allowed_s {
-            // At least what it has taken.
+            // It needs at least the time that it has taken.
             let needed_s = if done > 0.0 { taken_s / done } else { taken_s };
             return Some(Error::TimeBound {
                 work: Work::All,
@@ -131,7 +132,7 @@ fn taken_cpu_s() -> f64 {
     START.elapsed().as_secs_f64()
 }
 
-/// Addresses that are taken and memory that is in use, where the system tells; 0 elsewhere.
+/// Addresses that are taken and memory that is in use, if the system reports them; otherwise 0.
 pub fn memory_taken_bytes() -> [u64; 2] {
     let text = fs::read_to_string("/proc/self/statm").unwrap_or_default();
     let mut pages = text.split(' ').map(|pages| pages.parse().unwrap_or(0));

@@ -166,7 +166,7 @@ const SAME_MM: f64 = 1.001e-3;
 const SAME_PITCH: f64 = 0.02;
 
 impl<'a> Conversion<'a> {
-    /// Checks that `target` can have what is in the file.
+    /// Checks that `target` can hold the contents of the file.
     ///
     /// # Errors
     /// Any [`ConvertError`]; of [`ArchiveError`] those that writing has besides.

@@ -1,4 +1,4 @@
-//! Heights, exposures, moves and rests of a conversion. What differs by noise alone is one.
+//! Heights, exposures, moves and rests of a conversion. Values that differ by noise alone count as one.
 
 use super::{ConvertError, LayerRead, Loss, SAME_MM};
 use crate::archive::read::About;

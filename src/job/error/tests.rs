@@ -385,7 +385,7 @@ const VERBATIM: [&str; 12] = [
     "theirs", "ours", "slicers",
 ];
 
-/// Collects what a sentence must contain: numbers, and untranslated text. Fails on other prose.
+/// Collects the required parts of a sentence: numbers, and untranslated text. Fails on other prose.
 fn collect(key: &str, value: &Value, found: &mut Vec<String>) {
     match value {
         Value::Number(number) => found.push(number.as_i64().map_or_else(

@@ -1,5 +1,5 @@
-//! The stages of a job in order, each with an immutable result that knows what it was made from: parts of the resolved options, a prepared
-//! model, its rays, its shape along z, and its layers.
+//! The stages of a job in order, each with an immutable result that holds its inputs: parts of the resolved options, a
+//! prepared model, its rays, its shape along z, and its layers.
 
 pub mod facet_shapes;
 pub mod measured;

@@ -193,8 +193,8 @@ impl Sampling {
         supports.map_or(0.0, |supports| supports.profile().lift_mm)
     }
 
-    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision; with what is below
-    /// the model.
+    /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision; plus
+    /// the lift of supports.
     pub fn height_mm(&self, size_mm: f64) -> f64 {
         let asked_mm = self.pose.height_mm;
         let model_mm = asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6);

@@ -49,7 +49,7 @@ impl PlannedModel {
     }
 }
 
-/// A plan with what it was made from. Immutable and shared, so its masks always come from its own rays.
+/// A plan with its inputs. Immutable and shared, so its masks always come from its own rays.
 #[derive(Debug)]
 pub struct Planned {
     /// The models; there is at least one.
@@ -131,7 +131,7 @@ impl Planned {
         &self.models[0].measured
     }
 
-    /// The best uniform layers within tolerance, by what the options minimize.
+    /// The best uniform layers within tolerance, in layers or in time, whichever the options minimize.
     pub fn best_uniform(&self) -> Option<UniformLayers> {
         let best = self.findings.uniform.best(self.layering.minimize)?;
         Some(UniformLayers {

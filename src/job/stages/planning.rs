@@ -149,8 +149,9 @@ impl<'a> Planning<'a> {
         })
     }
 
-    /// An error of a plan in which models have tolerances of their own, with the tolerance that prevents it, and what it would have
-    /// to be. If several do, each alone would have to be larger, and the next plan says so of the next.
+    /// An error of a plan in which models have tolerances of their own, with the tolerance that prevents the plan, and
+    /// the least that allows it. If several do, each alone would have to be larger, and the next plan names the next
+    /// one.
     fn in_own_figures(&self, error: PlanError) -> PlanError {
         let Target::Tolerance(of) = self.layering.target else {
             return error;
@@ -253,9 +254,9 @@ impl<'a> Planning<'a> {
         uniform::plan(bins, self.height_mm, layer_mm, first_layer)
     }
 
-    /// The fewest and the quickest uniform layers within a tolerance, of every thickness within the limits that the motor can make; without a motor step, of
-    /// every micrometre. The top counts: what is left above the last layer must be within the tolerance as well, and where errors are
-    /// distances, the top must be no farther from the model's.
+    /// The fewest and the quickest uniform layers within a tolerance, of every thickness within the limits that the
+    /// motor can make; without a motor step, of every micrometre. The top counts: the rest above the last layer must be
+    /// within the tolerance as well, and if errors are distances, the top must be no farther from the model's.
     fn uniform_within(&self, tolerance: f64) -> Result<[Option<BestUniform>; 2], PlanError> {
         let resin = &self.layering.resin;
         let limits = self.layering.limits(tolerance);

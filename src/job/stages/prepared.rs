@@ -1,4 +1,4 @@
-//! A model on the plate with its voids and supports: what is sampled. No pixel decides about it.
+//! A model on the plate with its voids and supports, ready to be sampled. It does not depend on pixels.
 
 use std::sync::Arc;
 
@@ -182,7 +182,7 @@ impl Prepared {
         let mut mesh = self.mesh.on_plate(&turn)?;
         mesh.lift(lift_mm);
         let rotation = rotation_matrix(turn.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
-        // Its middle is elsewhere now: any vertex tells where.
+        // Its middle has moved, by the same vector as any vertex.
         let [before, after] = [&self.mesh, &mesh].map(|it| it.vertices[0].as_dvec3());
         let by = (after - rotation * before).with_z(0.0);
         let place = |at: [f64; 3]| (rotation * DVec3::from_array(at) + by).to_array();
@@ -263,7 +263,7 @@ impl Unsupported {
     }
 }
 
-/// Hollows a mesh; what was left out of it, if anything.
+/// Hollows a mesh, and returns its void, if there is one.
 fn hollow(
     mesh: &mut Mesh,
     hollowing: &Hollowing,

@@ -63,7 +63,7 @@ fn layers_to_measure(bins: Bins, layering: &Layering) -> f64 {
         limits.unit(bins),
         limits.thickness(bins, limits.layer_min_mm, limits.layer_max_mm),
     ) else {
-        // The plan says what is wrong.
+        // The plan reports the error.
         return 0.0;
     };
     let planes = bins.count as f64 / f64::from(unit);

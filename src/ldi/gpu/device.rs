@@ -247,7 +247,7 @@ impl Gpu {
         }
     }
 
-    /// The uniform that tells shaders where a tile lies.
+    /// The uniform with a tile's place.
     pub(super) fn tile(&self, region: Region) -> wgpu::Buffer {
         let tile = Tile {
             origin: [region.column, region.row].map(|pixel| pixel as i32 * STEPS as i32),

@@ -28,7 +28,7 @@ type Corners = [[i32; 2]; 3];
 /// Bytes of a facet on the GPU.
 pub(super) const FACET_BYTES: u64 = 3 * size_of::<Corners>() as u64;
 
-/// The two layers of a tile that passes read and write in turn, and what is drawn on them.
+/// The two layers of a tile that passes read and write in turn, and the facets drawn on them.
 pub(super) struct Layers<'a> {
     peel: &'a wgpu::RenderPipeline,
     pub cells: &'a Cells,

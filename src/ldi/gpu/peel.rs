@@ -2,8 +2,8 @@
 //! Peeling", 2008). Each pass finds the nearest and the farthest facet that are left on every ray; the first counts them, too.
 //!
 //! Order is by facets' heights, which rays need not meet in that order: heights are computed afterwards, and hits are
-//! sorted by them. What counts is that no facet is missing: places ascend along a ray, so its facets differ, and their
-//! number must be what was counted. The facets of rays that are too deep are found on the CPU.
+//! sorted by them. No facet may be missing: places ascend along a ray, so its facets differ, and their number must be
+//! the count of the first pass. The facets of rays that are too deep are found on the CPU.
 
 use rustc_hash::FxHashMap;
 
@@ -92,7 +92,7 @@ impl<'a> Peeler<'a> {
         self.meetings(region, &cells, &offsets, &found).map(Some)
     }
 
-    /// The first pass, over all cells, and what it counts.
+    /// Runs the first pass, over all cells, and counts the facets of each ray.
     fn count(&self, layers: &Layers<'_>, rows: &Rows) {
         let Gpu { device, queue, .. } = self.gpu;
         let mut encoder = device.create_command_encoder(&Default::default());
@@ -111,7 +111,7 @@ impl<'a> Peeler<'a> {
         queue.submit([encoder.finish()]);
     }
 
-    /// The other passes, and what all of them find.
+    /// Runs the other passes, and collects the facets of all of them.
     fn collect(
         &self,
         layers: &Layers<'_>,

@@ -1,4 +1,4 @@
-//! Tiles of a grid, and what was sampled on them joined.
+//! Tiles of a grid, and the joining of their results.
 
 use super::failed;
 use crate::grid::Grid;

@@ -41,11 +41,11 @@ pub enum ReadError {
     #[error(transparent)]
     #[serde(untagged)]
     Stl(#[from] StlError),
-    /// A 3MF that is damaged, or holds what is not read.
+    /// A 3MF that is damaged, or has unsupported contents.
     #[error(transparent)]
     #[serde(untagged)]
     ThreeMf(#[from] ThreeMfError),
-    /// An OBJ that is damaged, or holds what is not read.
+    /// An OBJ that is damaged, or has unsupported contents.
     #[error(transparent)]
     #[serde(untagged)]
     Obj(#[from] ObjError),

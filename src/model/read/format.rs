@@ -12,7 +12,7 @@ pub enum ModelFormat {
     /// STL, binary or ASCII.
     #[serde(rename = "stl")]
     Stl,
-    /// 3MF, or another zip: only the whole file tells.
+    /// 3MF, or another zip: only the whole file decides.
     #[serde(rename = "3mf")]
     ThreeMf,
     /// OBJ.

@@ -17,7 +17,7 @@ pub use error::ReadError;
 pub use format::ModelFormat;
 use kind::FileKind;
 
-/// Number of bytes at the beginning of a file that are enough to tell its kind.
+/// Number of bytes at the beginning of a file that determine its kind.
 pub const HEAD_BYTES: usize = 1 << 16;
 
 /// The corners of triangles, in file order.
@@ -32,7 +32,8 @@ pub struct Contents {
     pub negative: Triangles,
     /// The unit that the file states, from which the triangles were converted.
     pub unit: Option<ModelUnit>,
-    /// Objects that are not printed: supports of other programs, surfaces unless they were asked for, and what a user turned off.
+    /// Objects that are not printed: supports of other programs, surfaces unless they were asked for, and objects that
+    /// a user turned off.
     pub skipped_objects: usize,
     /// Parts that slicers do not print as solids, each once.
     pub parts: Vec<Part>,
@@ -139,10 +140,10 @@ fn head_of(bytes: &[u8]) -> &[u8] {
 }
 
 /// The format of a file by its first [`HEAD_BYTES`] and its length, so that files that cannot be models are rejected before
-/// they are read. Of a zip only the whole tells.
+/// they are read. A zip is identified by the whole file only.
 ///
 /// # Errors
-/// [`ReadError`], which names what the file is instead.
+/// [`ReadError`], which names the kind of file.
 pub fn identify(head: &[u8], length: u64) -> Result<ModelFormat, ReadError> {
     if length == 0 {
         return Err(ReadError::Empty);

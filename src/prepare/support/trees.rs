@@ -1,7 +1,7 @@
 //! Tips, the pillars below them, and how pillars join to trees.
 //!
 //! A contact's tip leads away from the surface. From its end a pillar goes down to the plate by the shortest way, or a branch to a pillar
-//! that is there already, whichever is shorter. What holds more tips is thicker.
+//! that is there already, whichever is shorter. A pillar with more tips is thicker.
 
 use glam::DVec3;
 
@@ -94,7 +94,7 @@ pub(super) struct Trees<'a> {
     clearance: &'a Clearance,
     profile: SupportProfile,
     nodes: Vec<Node>,
-    /// The lowest nodes, and what they stand on.
+    /// The lowest nodes, and the surface that they stand on.
     feet: Vec<(u32, End)>,
     tips: Vec<Tip>,
     /// Short supports between two surfaces of the model: their ends, radii there, and the radius halfway.
@@ -104,7 +104,7 @@ pub(super) struct Trees<'a> {
 
 /// Ways to hold a tip.
 enum Hold {
-    /// By a new pillar: its points from the highest down, and what it stands on.
+    /// By a new pillar: its points from the highest down, and the surface that it stands on.
     Pillar(Vec<DVec3>, End),
     /// By a branch to this node.
     Branch(u32),
@@ -320,7 +320,7 @@ impl<'a> Trees<'a> {
     /// Holds a contact straight from the surface below, or from the plate, where nothing else fits.
     fn add_strut(&mut self, contact: &Contact) -> bool {
         let top = contact.at;
-        // Beyond what the columns do not resolve.
+        // Beyond the error of the columns.
         let below = top - DVec3::Z * 0.3;
         let floors_mm = self.clearance.floors_mm(below);
         let floors_mm = floors_mm.map(|it| it.map(f64::from));

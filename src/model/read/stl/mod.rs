@@ -21,8 +21,8 @@ const BINARY_FACET_BYTES: usize = 50;
 ///
 /// A file whose length matches the facet count at byte 80 is binary, whatever its header says, since many binary files begin
 /// with `solid`. ASCII may hold several solids. Keywords are matched without regard to case, and lines end with LF, CR or
-/// both. A whole file may be on one line: the name of a solid ends with its line or before `facet normal`. What writers get wrong
-/// is read all the same: closing words in two (`end loop`), words behind a facet or a solid, no `endsolid`.
+/// both. A whole file may be on one line: the name of a solid ends with its line or before `facet normal`. Common
+/// mistakes of writers are accepted: closing words in two (`end loop`), words behind a facet or a solid, no `endsolid`.
 ///
 /// # Errors
 /// [`StlError`], with the byte offset or the line where reading failed.

@@ -93,7 +93,7 @@ impl<'a> Build<'a> {
         Ok(model)
     }
 
-    /// Places what a model refers to. `to_mm` leads from the model's coordinates to millimetres on the plate.
+    /// Places the object of a reference. `to_mm` leads from the model's coordinates to millimetres on the plate.
     fn place(
         &mut self,
         from: &Rc<Model>,

@@ -46,7 +46,7 @@ impl XmlFault {
 pub enum ThreeMfFeature {
     /// Beams between vertices.
     BeamLattice,
-    /// Slices, with facets that only show what they are about.
+    /// Slices, whose facets only illustrate them.
     Slices,
     /// Facets displaced by a texture.
     Displacement,
@@ -87,7 +87,7 @@ pub enum ThreeMfError {
         /// Its name.
         part: String,
     },
-    /// A part is not what the zip's directory says of it.
+    /// A part does not match its entry in the zip's directory.
     #[error("the part {part} of the 3MF file is damaged; copy or export it again")]
     #[serde(rename = "threemf-damaged-part")]
     DamagedPart {
@@ -127,7 +127,7 @@ pub enum ThreeMfError {
         /// The fault.
         fault: XmlFault,
     },
-    /// An attribute is missing, or its value is not what it must be.
+    /// An attribute is missing, or its value is invalid.
     #[error("{part}, line {line}: `{found}` is no value of {attribute}; export the model again")]
     #[serde(rename = "threemf-bad-attribute")]
     BadAttribute {

@@ -27,7 +27,8 @@ const MODEL: &[u8] = b"http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmo
 /// The usual name of the model part.
 const USUAL_MODEL: &str = "3D/3dmodel.model";
 
-/// Reads what a 3MF builds: the facets of all its items, or of those on one plate, once for each placement, in file order.
+/// Reads the build of a 3MF: the facets of all its items, or of those on one plate, once for each placement, in file
+/// order.
 ///
 /// # Errors
 /// [`ThreeMfError`], with the part and the line where reading failed; [`ReadError::OtherKind`] for other zips.

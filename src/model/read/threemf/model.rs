@@ -1,4 +1,4 @@
-//! A model part: its objects, and what is to be built of them.
+//! A model part: its objects, and the items of its build.
 
 use glam::{DAffine3, Vec3};
 use rustc_hash::FxHashMap;

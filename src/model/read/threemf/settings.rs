@@ -30,7 +30,7 @@ pub struct Settings {
 }
 
 impl Settings {
-    /// Reads what a package has of it.
+    /// Reads the settings of a package.
     pub fn of(package: &Package<'_>) -> Result<Self, ThreeMfError> {
         let mut reader = Reader::default();
         for part in [ORCA, PRUSA] {

@@ -1,4 +1,4 @@
-//! The values of attributes, and what is wrong with them.
+//! The values of attributes, and their faults.
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 

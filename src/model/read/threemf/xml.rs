@@ -84,7 +84,7 @@ impl<'a> Tags<'a> {
                 return Ok(None);
             }
             self.start = self.at;
-            // As much as tells comments from the rest.
+            // Enough to distinguish comments from the rest.
             while self.buffer.len() - self.start < 9 && self.read_on()? {}
             let text = &self.buffer[self.start..];
             let end: &[u8] = if text.starts_with(b"<!--") {
