@@ -184,7 +184,7 @@ fn counted(work: Work) {
     work();
 }
 
-/// Does a job, and says what it allocated. Memory that grows counts as allocated by what it grows.
+/// Does a job, and returns its allocations. Memory that grows counts as allocated by its growth.
 fn allocations(ready: fn() -> Work) -> Value {
     let work = ready();
     let region = Region::new(ALLOCATOR);

@@ -1,6 +1,6 @@
 //! `cargo xtask bench filament MODEL=HEIGHT...`: layers for a filament printer compared with the adaptive layers of
-//! `PrusaSlicer`, which its
-//! command line has no switch for. Its planner is written again here from its description in docs/filament.md.
+//! `PrusaSlicer`, for which its command line has no switch. Its planner is written again here from its description in
+//! docs/filament.md.
 //!
 //! Prints a table: for each model and quality, layers and largest cusp of that planner, the layers that Cusp needs for that cusp, and
 //! the least cusp of as many layers. All have a first layer of 0.2 mm, whose cusp does not count, and layers of 0.07 to 0.3 mm.

@@ -1,7 +1,8 @@
 //! Filling, depth peeling and the CPU, by model and rays, on whatever adapter wgpu finds: `cargo xtask bench gpu [MODEL.stl …]`.
 //!
-//! Prints a table in Markdown: times are the minimum of several runs, in milliseconds. What the GPU does, reading its result
-//! included, and what the CPU does afterwards are apart. A row whose results differ says so, and the bench then fails.
+//! Prints a table in Markdown: times are the minimum of several runs, in milliseconds. The time of the GPU, reading its
+//! result included, and the time of the CPU afterwards are separate. A row whose results differ says so, and the bench
+//! then fails.
 
 #[expect(dead_code, reason = "other benches use the rest")]
 mod common;

@@ -39,6 +39,6 @@ mod web;
 
 use peak_alloc::PeakAlloc;
 
-/// Counts what is allocated, for `memory.rs`.
+/// Counts allocations, for `memory.rs`.
 #[global_allocator]
 static ALLOCATOR: PeakAlloc = PeakAlloc;

@@ -115,7 +115,7 @@ fn the_document_names_every_field_with_its_bounds_and_every_line() {
         let Ok(most) = cells[1].parse::<f64>() else {
             continue;
         };
-        // The bound itself is accepted, and what is beyond it is not.
+        // The bound itself is accepted, and numbers beyond it are not.
         for (value, is_fine) in [
             (0.0, true),
             (most, true),

@@ -1,4 +1,5 @@
-//! Nothing vanishes without a word: what compensation erases, what no ray meets, and cavities that nothing leads out of.
+//! Nothing vanishes without a warning: parts that compensation erases, bodies that no ray meets, and cavities without a
+//! way out.
 
 use crate::common::Slicer;
 use cusp_slicer::growth::Growth;

@@ -1,4 +1,4 @@
-//! Appendix A: how well an approximated error of a layer tells the true one, which a simulated print has.
+//! Appendix A: agreement of an approximated error of a layer with the true one, which a simulated print has.
 
 use std::fmt::Write as _;
 

@@ -48,7 +48,7 @@ impl Input<'_> {
 
     /// Returns true once in `times` times.
     pub fn once_in(&mut self, times: u8) -> bool {
-        // Zeros, which follow the last byte, choose what is usual.
+        // Zeros, which follow the last byte, choose the usual value.
         self.below(times) == times - 1
     }
 

@@ -1,5 +1,5 @@
-//! The whole path over any options and models: whatever the bytes ask for, there is an error or a plan that keeps what is promised
-//! of it (`promises.rs`).
+//! The whole path over any options and models: every input gives an error or a plan that keeps its promises
+//! (`promises.rs`).
 
 use cusp_slicer::format::Format;
 use cusp_slicer::growth::Growth;

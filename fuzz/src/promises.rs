@@ -33,7 +33,7 @@ pub const FACTS: FileFacts = FileFacts {
     parts: Vec::new(),
 };
 
-/// Says what was planned if a promise is broken.
+/// Prints the options if a promise is broken.
 struct Shown<'a>(&'a Options, Further);
 
 impl Drop for Shown<'_> {
@@ -44,7 +44,7 @@ impl Drop for Shown<'_> {
     }
 }
 
-/// Plans, and checks what is promised of the plan.
+/// Plans, and checks the promises of the plan.
 pub fn check(model: &[[Vec3; 3]], options: &Options, further: Further) {
     let _shown = Shown(options, further);
     let Ok(mut slicer) = Slicer::of_triangles(model, FACTS) else {
@@ -76,7 +76,7 @@ fn takes_long(model: &[[Vec3; 3]], options: &Options) -> bool {
     })
 }
 
-/// The report without times and the plan, or what the error says.
+/// The report without times and the plan, or the error's sentence.
 pub type Planned = Result<(Report, Plan), String>;
 
 /// Plans.

@@ -17,8 +17,8 @@ use super::alone;
 /// Larger print files only take longer.
 const MOST_PIXELS: u64 = 1 << 20;
 
-/// Previews, which no decision depends on and which take up to 195 KB: where the file says what it is, what it says
-/// there, and where they are.
+/// Previews, which no decision depends on and which take up to 195 KB: the offset of a format's first bytes, these
+/// bytes, and the range of the previews.
 const PREVIEWS: [(usize, &[u8], Range<usize>); 2] = [
     (4, b"\x07\0\0\0DLP\0", 194..195_308),
     (0, b"ANYCUBIC\0\0\0\0\x05\x02", 192..75_456),
@@ -175,7 +175,7 @@ pub const WEIGHED_CORNERS: [f32; 18] = [
     0.0, 0.0, 0.0, 0.0, 1.0, 0.0, 0.0, 0.0, 1.0,
 ];
 
-/// Weights of facets. Those that can be read are what is written.
+/// Weights of facets. Those that can be read are written as the same bytes.
 pub fn weights(bytes: &[u8]) {
     match facet_weights::from_bytes(bytes, &WEIGHED_CORNERS) {
         Ok(weights) => assert_eq!(facet_weights::to_bytes(&weights, &WEIGHED_CORNERS), bytes),

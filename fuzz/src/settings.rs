@@ -1,4 +1,5 @@
-//! No text makes the readers of settings and plans panic, and what they read is written so that it reads the same.
+//! No text makes the readers of settings and plans panic, and the values that they read are written so that they read
+//! the same.
 
 use std::fmt::Debug;
 use std::sync::LazyLock;
@@ -52,7 +53,7 @@ pub fn settings(bytes: &[u8]) {
     }
 }
 
-/// Reads a value, and again what it is written as.
+/// Reads a value, and again after writing it.
 fn read_twice<T: DeserializeOwned + Serialize + PartialEq + Debug>(text: &str) -> Option<T> {
     let value: T = serde_json::from_str(text).ok()?;
     let written = serde_json::to_string(&value).expect("what was read can be written");

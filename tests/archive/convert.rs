@@ -1,4 +1,4 @@
-//! Print files made from print files: every format from every other, pixel by pixel, and what is refused.
+//! Print files made from print files: every format from every other, pixel by pixel, and those that are refused.
 
 use std::io::{Cursor, Write as _};
 use std::sync::Arc;
@@ -21,7 +21,7 @@ pub fn to(format: Format) -> Target {
     }
 }
 
-/// Converts a file. Returns the new one, and what it lost.
+/// Converts a file. Returns the new one, and its losses.
 pub fn convert(bytes: &[u8], target: &Target) -> Result<(Vec<u8>, Vec<Loss>), ConvertError> {
     let file = PrintFile::open(bytes).unwrap();
     let inspection = inspect(&file, &mut silent).unwrap();
@@ -424,7 +424,7 @@ fn what_differs_between_layers_is_said() {
         Loss::Rests { wait_s: 1.0 },
     ];
     assert_eq!(losses, expected);
-    // With a resin, nobody asked for those of the file.
+    // With a resin, those of the file are not wanted.
     let target = Target {
         resin: Some(Resin::default()),
         ..to(Format::Goo)

@@ -265,7 +265,7 @@ fn plates_have_a_curve_and_a_comparison_each() {
     ]);
     let shown = String::from_utf8(output.stdout).unwrap();
     assert!(shown.contains("plate 2 of 2"), "{shown}");
-    // Who is meant is said by its file.
+    // A message names the model by its file.
     let output = on_cpu(&[
         "compare", &ball, &slab, "--pixels", "50x50", "--pitch", "0.1",
     ]);

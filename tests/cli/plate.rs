@@ -52,7 +52,7 @@ fn models_and_copies_are_sliced_into_one_print_file() {
 fn one_copy_arranged_is_reported_as_several_are_and_printed_as_alone() {
     let folder = TempDir::new().unwrap();
     let slab = slab(&folder);
-    // This format has no manifest, which tells a plate.
+    // This format has no manifest, which would name the plate.
     let (alone, arranged) = (
         path_in(&folder, "alone.goo"),
         path_in(&folder, "arranged.goo"),

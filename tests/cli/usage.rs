@@ -159,7 +159,7 @@ fn a_file_of_another_kind_is_named() {
     }
 }
 
-/// Without a display, Mesa would complain on stderr although nobody asked for one.
+/// Without a display, Mesa would complain on stderr although none is needed.
 #[test]
 fn nothing_but_our_own_words_is_on_stderr() {
     let folder = TempDir::new().unwrap();

@@ -1,4 +1,4 @@
-//! `verify`, and what it must agree on with `plan` and `slice`.
+//! `verify`, and its agreement with `plan` and `slice`.
 
 use glam::Vec3;
 use serde_json::Value;
@@ -296,7 +296,7 @@ fn a_model_alone_on_each_of_several_plates_keeps_options_of_its_own() {
         "{}",
         String::from_utf8_lossy(&verified.stderr)
     );
-    // One plate's plan tells that it is one of several, by a number that there can be.
+    // One plate's plan states that it is one of several, by a valid number.
     let mut second = whole["plates"][1].clone();
     second["schema"] = whole["schema"].clone();
     std::fs::write(&plan, second.to_string()).unwrap();

@@ -42,7 +42,7 @@ fn random_boxes_are_their_raster() {
         let ((left, right), (front, back), (foot, top)) = (ends(0), ends(1), ends(2));
         let mesh = on_plate(&triangles);
         let steps = (1.0 / Lattice::of(&mesh.bounds()).step_mm()).round() as i64;
-        // At the planes of the boxes as well, where what is above counts.
+        // At the planes of the boxes as well, where the side above counts.
         let sections: Vec<f64> = (0..2 * (top - foot))
             .map(|half| half as f64 / 2.0)
             .collect();

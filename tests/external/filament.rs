@@ -46,8 +46,8 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-/// Five models, each of which has other layers. All end in something that is wide enough for a thread: of a tip, `prusa-slicer` leaves
-/// out what is thinner.
+/// Five models, each of which has other layers. All end in a top that is wide enough for a thread: `prusa-slicer`
+/// leaves out thinner parts of a tip.
 fn models() -> Vec<(&'static str, solids::Triangles, Options)> {
     let options = |height_mm: f64| Options {
         format: Some(Format::Prusa3mf),

@@ -43,7 +43,7 @@ pub fn trials() -> Vec<Trial> {
     ]
 }
 
-/// Has models written to a folder, and returns what was written.
+/// Has models written to a folder, and returns their descriptions.
 fn write_models(folder: &Path) -> Result<Vec<Value>, Failed> {
     let output = succeeds(Command::new(python()).arg(WRITER).arg(folder))?;
     Ok(serde_json::from_slice(&output.stdout)?)
@@ -66,7 +66,8 @@ fn near(what: &str, found: f64, expected: f64, tolerance: f64) -> Result<(), Fai
     Err(format!("{what}: {found}, not {expected}").into())
 }
 
-/// lib3mf writes six decimals, of transforms too, so that what they move may lie a few millionths of its size aside.
+/// lib3mf writes six decimals, of transforms too, so that transformed vertices may be off by a few millionths of the
+/// model's size.
 fn models_are_read_as_they_were_written() -> Result<(), Failed> {
     let folder = TempDir::new()?;
     let written = write_models(folder.path())?;

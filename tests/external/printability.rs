@@ -28,8 +28,8 @@ const PIXELS: f64 = 60.0;
 /// Dark pixels on each side: more than any limit.
 const PAD: usize = 24;
 
-/// For each kind, the first and the last layer of each finding, and its pixels times bins. What begins above the first layer, with
-/// nothing below, is a kind of its own: there other programs' islands are those of the checks.
+/// For each kind, the first and the last layer of each finding, and its pixels times bins. A part that begins above the
+/// first layer, with nothing below, is a kind of its own: there other programs' islands are those of the checks.
 type Found = BTreeMap<String, Vec<[u64; 3]>>;
 
 pub fn trials() -> Vec<Trial> {

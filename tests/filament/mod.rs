@@ -1,4 +1,4 @@
-//! Files for slicers of filament printers: what the slicers make of them, by their own rules as written down in `docs/filament.md`.
+//! Files for slicers of filament printers, read by the slicers' own rules as written down in `docs/filament.md`.
 
 mod file;
 
@@ -334,7 +334,7 @@ fn layers_beyond_the_nozzles_limits_are_refused() {
     assert_eq!(code(&usual), None);
 }
 
-/// A plan in which the first layer is not what the slicer prints first would be wrong everywhere.
+/// If the slicer printed another first layer than the plan's, every layer would be wrong.
 #[test]
 fn a_model_of_one_layer_or_less_is_right_or_refused() {
     let plate = |height_mm, planner| {

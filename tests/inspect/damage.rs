@@ -1,5 +1,5 @@
-//! Damaged files: cut at every length, and with bytes changed. Every one is an error or has warnings, or is what it was; none
-//! makes a reader panic.
+//! Damaged files: cut at every length, and with bytes changed. Every one is an error, has warnings, or reads as before;
+//! none makes a reader panic.
 
 use cusp_slicer::archive::read::{PrintFile, inspect};
 use cusp_slicer::progress::silent;

@@ -1,4 +1,4 @@
-//! Print files made byte by byte from the descriptions of their formats, and what the readers find in them.
+//! Print files made byte by byte from the descriptions of their formats, and the readers' results.
 
 mod ctb;
 mod damage;

@@ -1,4 +1,4 @@
-//! The stages together: cancellation, progress, and what a change of options repeats.
+//! The stages together: cancellation, progress, and the stages that a change of options repeats.
 
 mod bounded;
 mod numbers;

@@ -68,7 +68,7 @@ fn a_vessel_is_a_cup_either_way_up_but_not_on_its_side() {
 
 #[test]
 fn a_cup_with_a_hole_in_its_bottom_is_none() {
-    // A tube that leans: it stands on an edge, and what is in it runs out below.
+    // A tube that leans: it stands on an edge, and its contents run out below.
     let mut tube = vessel(12.0, 9.0, 1.5);
     tube.truncate(tube.len() - 4);
     let ring = |inset: f32| {
@@ -105,7 +105,7 @@ fn what_lies_within_another_body_is_no_island() {
     assert_eq!(found(&pair(7.0), DVec3::Z).0, 0);
     // Side by side, both stand on the plate.
     assert_eq!(found(&pair(12.0), DVec3::X).0, 0);
-    // Shells: each ball in a hollow is loose, and what is closed is no cup.
+    // Shells: each ball in a hollow is loose, and a closed hollow is no cup.
     let (_, shells, _) = solids::torture()
         .into_iter()
         .find(|it| it.0 == "nested shells")

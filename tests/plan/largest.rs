@@ -140,7 +140,7 @@ fn a_tolerance_of_zero_is_kept_beside_others() {
     let none = errors(0, 1000);
     assert_eq!(none.steps_between(2, 3), u64::MAX);
     assert!(none.steps_between(0, 2) < u64::MAX);
-    // The plan allows nothing, the first model what it has.
+    // The plan allows nothing, the first model its own tolerance.
     let loose = errors(none.to_steps(0.5), 0);
     assert_eq!(loose.steps_between(2, 4), loose.steps_between(0, 2));
 }

@@ -195,7 +195,7 @@ fn a_hole_through_the_plate_ends_there() {
     for (drain, volume_mm3) in [
         (below, 14.05),
         (slanted, 14.05 * 1.1f64.sqrt()),
-        // Of a circle of 3 mm, what is more than 0.5 mm below its middle is missing.
+        // Of a circle of 3 mm, the part more than 0.5 mm below its middle is missing.
         (level, 5.0 * (7.07 - 2.065)),
     ] {
         let report = plan(&mut cube, &hollowed(drained(vec![drain])));
@@ -280,7 +280,7 @@ fn holes_as_wide_as_the_model_are_not_made() {
 
 #[test]
 fn pits_beside_a_hole_are_filled() {
-    // A groove below makes a ridge in the floor of the void, lower than its lattice tells.
+    // A groove below makes a ridge in the floor of the void, lower than its lattice resolves.
     for groove_mm in [0.1, 0.2, 0.3, 0.4] {
         let model = blocks(&[
             [[0.0, 0.0, groove_mm], [40.0, 20.0, 20.0]],

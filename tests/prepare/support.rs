@@ -162,7 +162,7 @@ fn tips_touch_what_they_should() {
         let (report, found) = checked(&mut slab, &options);
         let profile = strength.profile();
         let contacts = report.models[0].supported.as_ref().unwrap().points.len();
-        // Lit just below the slab, with what a cone is wider half a layer down.
+        // Lit just below the slab, plus the growth of a cone half a layer down.
         let layer = (profile.lift_mm / 0.05) as usize - 1;
         let lit_mm2 = found.peel.area_mm2[layer];
         let slope = (profile.pillar_mm - profile.contact_mm) / 2.0 / profile.tip_mm;
@@ -377,7 +377,7 @@ fn points_by_hand_are_kept_and_filled_up() {
         ..kept.clone()
     };
     assert_eq!(supports_of(&disc, &all).points, supports.points);
-    // Without points to keep, it is what is placed automatically.
+    // Without points to keep, the contacts are those placed automatically.
     let none = Supporting {
         points: Some(Vec::new()),
         ..kept

@@ -188,7 +188,7 @@ impl Voxels {
     /// Cups and traps.
     pub fn hollows(&self) -> Vec<Found> {
         let mut found = Vec::new();
-        // The hollows up to the last layer: a voxel of each, and what is known of it.
+        // The hollows up to the last layer: a voxel of each, and its measures.
         let mut before: Vec<((usize, usize), Found)> = Vec::new();
         for layer in 0..=self.layers() {
             let planes = &self.layers[..(layer + 1).min(self.layers())];

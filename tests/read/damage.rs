@@ -68,7 +68,7 @@ fn every_cut_of_a_zip_or_a_binary_file_is_noticed() {
     for (place, file) in files().iter().enumerate() {
         for length in 0..file.len() {
             let found = look(&file[..length]);
-            // Lines that are missing from an OBJ tell nothing.
+            // A cut between lines of an OBJ cannot be noticed.
             assert!(found.is_err() || place == 1, "{length} of {}", file.len());
         }
     }

@@ -255,7 +255,7 @@ fn bombs_are_stopped() {
     let text = model("", &object(1, &solids::cube(1.0)), "<item objectid=\"1\"/>") + &spaces;
     let bytes = package(&text, &[]);
     assert!(bytes.len() < 1 << 20);
-    // The same facet again and again would fill the memory with what it becomes.
+    // The same facet again and again would fill the memory once it is expanded.
     let facets = "<triangle v1=\"0\" v2=\"1\" v3=\"2\"/>".repeat(1 << 19);
     let many = object(1, &solids::cube(1.0)).replace("</triangles>", &(facets + "</triangles>"));
     let many = package(&model("", &many, "<item objectid=\"1\"/>"), &[]);

@@ -1,4 +1,4 @@
-//! Reading 3MF: what is built, where, and how large.
+//! Reading 3MF: the facets of its build, their places and their sizes.
 
 use std::fmt::Write as _;
 

@@ -138,7 +138,7 @@ fn check(model: &Triangles, seed: u64) {
         .collect();
     let faces = faces(&masks, pitch, &tops);
 
-    // From the print: corners and middles of all faces, and for the mean what the documentation says.
+    // From the print: corners and middles of all faces, and for the mean the samples of the documentation.
     let (mut most, mut sum, mut area): (f64, f64, f64) = (0.0, 0.0, 0.0);
     let mut count = |corners: &[DVec3; 4], samples: &[(DVec3, f64)]| {
         let size = (corners[1] - corners[0]).length() * (corners[3] - corners[0]).length();

@@ -77,7 +77,7 @@ pub struct Job {
 /// The format of a model by the first bytes and the length of its file, before it is read.
 ///
 /// # Errors
-/// Throws a `CuspError` that names what it is instead.
+/// Throws a `CuspError` that names the kind of file.
 #[wasm_bindgen(unchecked_return_type = "ModelFormat")]
 pub fn identify(head: &[u8], length: f64) -> Result<JsValue, JsValue> {
     let format = read::identify(head, length as u64).map_err(throw)?;
@@ -620,7 +620,8 @@ pub fn encode_group(format: Ts<Format>, canvas: &[u32], runs: &[u32]) -> Result<
     archive::encode_group(format, canvas, &runs).map_err(throw)
 }
 
-/// Writes the print of two towers that tell whether a printer prints layers of several thicknesses, by calling `take` with one
+/// Writes the print of two towers that shows if a printer prints layers of several thicknesses, by calling `take` with
+/// one
 /// chunk after another, and returns its report. Of the options, printer, screen, format and resin count.
 ///
 /// # Errors
@@ -661,7 +662,7 @@ impl<'a> Chunks<'a> {
         BufWriter::with_capacity(CHUNK_BYTES, Self { take, thrown: None })
     }
 
-    /// Writes what is left, and throws whatever went wrong.
+    /// Writes the rest, and throws any error.
     fn end(mut writer: BufWriter<Self>, written: Result<(), Error>) -> Result<(), JsValue> {
         let flushed = writer.flush();
         let (chunks, _) = writer.into_parts();

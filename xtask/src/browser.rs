@@ -87,7 +87,7 @@ pub fn swiftshader(chromium: &Path) -> Option<PathBuf> {
     .find(|file| file.exists())
 }
 
-/// Writes what the wasm test runner passes to chromedriver, and returns the file.
+/// Writes the settings that the wasm test runner passes to chromedriver, and returns the file.
 pub fn webdriver_settings(project: &Project, chromium: &Path) -> Result<PathBuf> {
     let settings = serde_json::json!({
         "goog:chromeOptions": { "binary": chromium, "args": FLAGS }

@@ -1,4 +1,4 @@
-//! `cargo xtask counts`: what the core costs, in figures that do not depend on the machine's speed. Growth fails.
+//! `cargo xtask counts`: the cost of the core, in figures that do not depend on the machine's speed. Growth fails.
 //!
 //! Instructions, by valgrind, and allocations of the jobs of `benches/counts.rs`, on one thread, and the length of print files.
 //! `BLESS=1` records them.
@@ -25,7 +25,7 @@ const PLAIN_COPIES: &str = "glibc.cpu.hwcaps=-ERMS,-FSRM,-AVX,-AVX2,-AVX512F,-AV
 /// The figure of a job that needs valgrind, and depends on the compiler.
 const INSTRUCTIONS: &str = "instructions";
 
-/// Figures by what they are of and what they count.
+/// Figures by their subject and their unit.
 type Figures = BTreeMap<(String, String), f64>;
 
 /// Counts, compares and prints. With `BLESS=1` it records.
@@ -105,7 +105,7 @@ fn build(project: &Project) -> Result<PathBuf> {
     bench::executable(cargo.env("CARGO_INCREMENTAL", "0"), "counts")
 }
 
-/// Adds the instructions to what was counted of each job. Jobs run side by side: what one does has no effect on the count of another.
+/// Adds the instructions to the figures of each job. Jobs run side by side: one has no effect on the count of another.
 fn count_instructions(executable: &Path, scratch: &Path, counted: &mut Value) -> Result<()> {
     let jobs = counted["jobs"].as_object_mut().context("no jobs")?;
     let queue: Mutex<Vec<_>> = Mutex::new(jobs.iter_mut().collect());

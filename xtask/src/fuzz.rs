@@ -12,7 +12,8 @@ use crate::{
 
 /// The target that takes longest for each input, and the part of the time that it gets, in shares of the others.
 const SLOW: (&str, f64) = ("pipeline", 4.0);
-/// Targets that take each byte for a decision. Comparisons that they make tell libFuzzer nothing, and watching them takes half of the time.
+/// Targets that take each byte for a decision. Their comparisons give libFuzzer no guidance, and watching them takes
+/// half of the time.
 const DECIDING: [&str; 2] = ["inspect", "pipeline"];
 
 /// Runs the given targets, or all, for `minutes` together. Returns `false` if one found something.

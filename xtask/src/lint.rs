@@ -11,7 +11,8 @@ use crate::{
     python, wasm,
 };
 
-/// The workspaces, with what cargo-deny checks of each. Only the first one is shipped, so only there it matters what is compiled twice.
+/// The workspaces, with the checks of cargo-deny for each. Only the first one is shipped, so duplicates matter only
+/// there.
 const WORKSPACES: [(&str, &[&str]); 3] = [
     ("Cargo.toml", &["bans", "licenses", "sources"]),
     ("fuzz/Cargo.toml", &["licenses", "sources"]),

@@ -1,6 +1,6 @@
 //! The project's own commands: `cargo xtask help` lists them.
 //!
-//! Each command first ensures what it needs (compiler target, wasm tools,
+//! Each command first ensures its requirements (compiler target, wasm tools,
 //! browser, npm packages), so that a fresh clone on a machine with only Rust and
 //! Node is enough, and a second run spends no time on it.
 

@@ -85,7 +85,7 @@ fn npm_package(project: &Project) -> Result<()> {
         node::npm(project)?
             .current_dir(&folder)
             .args(["publish", "--dry-run", "--json"])
-            // npm takes what is no path for a repository's name.
+            // Without a path prefix npm takes the name for a repository's.
             .arg(format!(
                 "./{}",
                 tarball.file_name().unwrap_or_default().display()
@@ -114,7 +114,7 @@ fn crate_package(project: &Project) -> Result<()> {
     let packages = metadata["packages"].as_array();
     let own = packages.and_then(|all| all.iter().find(|it| it["name"] == "cusp-slicer"));
     let own = own.context("cargo metadata does not name cusp-slicer")?;
-    // A server recomputes what a page has sent.
+    // A server recomputes plans that a page has sent.
     let description = fs::read_to_string(project.www.join("package.json"))?;
     let of_npm = &serde_json::from_str::<Value>(&description)?["version"];
     ensure!(
@@ -124,11 +124,11 @@ fn crate_package(project: &Project) -> Result<()> {
     );
 
     let listed = process::output(cargo(project).args(["package", "--list", "--allow-dirty"]))?;
-    // Not compiled once more: it is what the tests have compiled.
+    // Not compiled once more: the tests have compiled it.
     process::output(cargo(project).args(["publish", "--dry-run", "--no-verify", "--allow-dirty"]))?;
     let folder = project.target.join("package");
     let files: Vec<String> = listed.lines().map(|line| line.replace('\\', "/")).collect();
-    // Cargo keeps apart what it only tries.
+    // Cargo keeps the packages of dry runs apart.
     let packed = only_file(&folder.join("tmp-crate"), "crate");
     let packed = packed.or_else(|_| only_file(&folder, "crate"))?;
     check(&CRATE, &files, &project.root, &packed)?;
@@ -208,7 +208,7 @@ fn check(contents: &Contents, files: &[String], folder: &Path, uploaded: &Path) 
     Ok(())
 }
 
-/// The targets of links and images in Markdown. What looks like one in code is none.
+/// The targets of links and images in Markdown, except in code.
 fn links(text: &str) -> impl Iterator<Item = &str> {
     let mut is_code = false;
     text.lines()

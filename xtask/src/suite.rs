@@ -159,7 +159,7 @@ fn vitest(npm: &mut Command, script: &str, scratch: &Path) -> Result<Tally> {
     Tally::of_vitest(status, &fs::read_to_string(&file).unwrap_or_default())
 }
 
-/// A workspace of its own: what it needs, nothing else compiles or locks. Dependencies of both are compiled once.
+/// A workspace of its own, whose dependencies do not burden others. Dependencies of both are compiled once.
 fn interop(project: &Project, scratch: &Path) -> Result<Tally> {
     let mut tally = cargo_test(
         process::cargo(project)

@@ -12,7 +12,7 @@ pub struct Tally {
     pub passed: usize,
     /// Tests that failed, by name.
     pub failed: Vec<String>,
-    /// Tests that did not run, by name and reason: what they need is absent.
+    /// Tests that did not run, by name and reason: their requirements are absent.
     pub ignored: Vec<String>,
 }
 

@@ -28,8 +28,8 @@ fn assert_near(actual: f32, expected: f64) {
     );
 }
 
-/// Slices the model and compares what the crate reads with the report and with the masks of the format `png`. Returns what it
-/// read.
+/// Slices the model and compares the crate's result with the report and with the masks of the format `png`. Returns
+/// that result.
 fn check(triangles: &solids::Triangles, options: &Options) -> (File, Report) {
     let options = &Options {
         format: Some(Format::Nanodlp),

@@ -1,4 +1,4 @@
-//! The crates that read GOO files, both by the author of mslicer: what they make of a file, as one type.
+//! The crates that read GOO files, both by the author of mslicer: their results, as one type.
 
 use msla_format::serde::SliceDeserializer;
 
