@@ -1,12 +1,12 @@
 //! Leaves out points of contours, within a tolerance.
 //!
-//! Each ring is simplified by itself (Ramer, Douglas, Peucker): a chain of points is replaced by a segment from its first to its last point
-//! if none is farther than the tolerance from it. Then the whole chain is near the segment, as the points near a
-//! segment are a convex set; and the
-//! segment is near the chain, as the chain projects onto all of it. So the bound holds in both directions.
+//! Each ring is simplified by itself (Ramer, Douglas, Peucker): a chain of points is replaced by a segment from its
+//! first to its last point if none is farther than the tolerance from it. Then the whole chain is near the segment, as
+//! the points near a segment are a convex set; and the segment is near the chain, as the chain projects onto all of it.
+//! So the bound holds in both directions.
 //!
-//! Rings could now touch, cross or change sides. Segments that touch others get their chains back, and rings that others would change
-//! sides of are restored, until nothing is wrong: at the latest when everything is as it was.
+//! Rings could now touch, cross or change sides. Segments that touch others get their chains back, and rings whose
+//! sides others would change are restored, until nothing is wrong: at the latest when every point is back.
 
 use super::{Polygon, Ring};
 

@@ -1,11 +1,10 @@
 //! The best set of few layer thicknesses, by branch and bound.
 //!
-//! A node of the search is an ascending list of intervals of thicknesses, one for each member of the set. With every thickness of
-//! every interval allowed, the fewest layers are a lower bound for all of the node's sets. The widest interval is
-//! halved
-//! until each holds one thickness. The node of the least bound is always the next, so that bound holds for all sets not tried, and
-//! the search is over when the best set known needs no more layers. Planes from which even all thicknesses together would need too
-//! many layers are left out.
+//! A node of the search is an ascending list of intervals of thicknesses, one for each member of the set. With every
+//! thickness of every interval allowed, the fewest layers are a lower bound for all of the node's sets. The widest
+//! interval is halved until each holds one thickness. The node of the least bound is always the next, so that bound
+//! holds for all sets not tried, and the search is over when the best set known needs no more layers. Planes from which
+//! even all thicknesses together would need too many layers are left out.
 //!
 //! Bounds count layers alone, in 32-bit integers and a block of planes at a time, which compilers turn into vector instructions: no
 //! layer is thinner than a block, so the planes of one do not depend on each other.

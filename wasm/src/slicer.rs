@@ -621,8 +621,7 @@ pub fn encode_group(format: Ts<Format>, canvas: &[u32], runs: &[u32]) -> Result<
 }
 
 /// Writes the print of two towers that shows if a printer prints layers of several thicknesses, by calling `take` with
-/// one
-/// chunk after another, and returns its report. Of the options, printer, screen, format and resin count.
+/// one chunk after another, and returns its report. Of the options, printer, screen, format and resin count.
 ///
 /// # Errors
 /// Throws a `CuspError`, or what `take` throws.
