@@ -1,4 +1,4 @@
-// Which pixels a facet covers: the source that fill.wgsl and peel.wgsl begin with.
+// Pixels that a facet covers: the source that fill.wgsl and peel.wgsl begin with.
 //
 // The rasteriser only proposes pixels: every facet is drawn as one triangle slightly larger than itself,
 // and integers decide whether the facet covers a pixel centre. The result does not depend on how an

@@ -24,7 +24,7 @@ const ROUNDING_SLACK: f64 = 1e-9;
 /// 2⁵²: from here on double precision has integers only, and the next 2³² have the same high bits.
 const INTEGERS: f64 = (1u64 << 52) as f64;
 
-/// Why pixels or bins cannot be laid out.
+/// Error of laying out pixels or bins.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

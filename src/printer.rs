@@ -166,7 +166,7 @@ fn is_extension(text: &str) -> bool {
             .all(|it| it.is_ascii_lowercase() || it.is_ascii_digit())
 }
 
-/// Why layers of several thicknesses cannot be printed from a file.
+/// Reason for which layers of several thicknesses cannot be printed from a file.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub enum Refusal<'a> {
     /// The format has one thickness for all layers.

@@ -162,7 +162,7 @@ impl Quantity {
     }
 }
 
-/// Why a number cannot be used.
+/// Error of a number that cannot be used.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -13,7 +13,7 @@ use super::further::FURTHER;
 use super::input::{Input, triangles};
 use super::{alone, promises};
 
-/// A model, options, and which further promise is looked at.
+/// A model, options, and the further promise to check.
 pub fn pipeline(bytes: &[u8]) {
     let mut input = Input(bytes);
     let further = input.below(FURTHER.len() as u8);

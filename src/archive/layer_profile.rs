@@ -139,8 +139,9 @@ impl LayeredModel<'_> {
         })
     }
 
-    /// The profile: bottom and thickness, then top and thickness of each layer, with six decimals, separated by semicolons. The last
-    /// top is the model's height, or the slicer drops the profile; the layer is as thick as planned all the same.
+    /// The profile: bottom and thickness, then top and thickness of each layer, with six decimals, separated by
+    /// semicolons. The last top is the model's height, or the slicer drops the profile; the layer is still as thick as
+    /// planned.
     fn profile(&self) -> String {
         let model_mm = self.mesh.bounds().size().z;
         let layers = self.z_mm.len().saturating_sub(1);

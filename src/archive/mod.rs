@@ -68,7 +68,7 @@ trait Encoder: Sync {
     ) -> Result<(), ArchiveError>;
 }
 
-/// Why a print file could not be written.
+/// Error of writing a print file.
 #[derive(Debug, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

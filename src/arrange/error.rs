@@ -1,8 +1,8 @@
-//! Why models cannot be arranged, or cannot stay where they are.
+//! Errors of arranging models.
 
 use serde::Serialize;
 
-/// Why models cannot be arranged, or cannot stay where they are.
+/// Error of arranging models, or of models in given places.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -98,8 +98,8 @@ impl Sheet {
         None
     }
 
-    /// A row of the shape that meets cells that are taken, and how many columns to the right it may be free again at the
-    /// earliest. `likely` is looked at first: what blocks one place usually blocks the next.
+    /// A row of the shape that meets taken cells, and the least number of columns to the right after which it may be
+    /// free again. `likely` is tried first: the row that blocks one place usually blocks the next.
     fn first_blocked(&self, shape: &Shape, at: [i64; 2], likely: usize) -> Option<(usize, i64)> {
         let outline = &shape.outline;
         let [column, row] = [0, 1].map(|axis| at[axis] + outline.first[axis]);

@@ -67,7 +67,7 @@ pub(super) fn rooms(lit: &Rows, disc: &Disc, extents: &Extents) -> Gaps {
     Gaps::new(rooms, &|row| extents.of_row(row, disc))
 }
 
-/// Rows of a layer that are looked at together.
+/// Rows of a layer that are examined together.
 const BLOCK_ROWS: i32 = 8;
 
 /// A layer, and the columns that are lit in blocks of its rows. A disc that must fit spans many rows, and few of these

@@ -117,7 +117,7 @@ pub struct Finding {
 }
 
 impl Finding {
-    /// By how much it is larger than another of its kind.
+    /// Weight by which it is compared with others of its kind.
     pub(super) fn weight(&self) -> f64 {
         match self.code {
             Code::Cup | Code::PeelArea | Code::PeelJump | Code::SmallContact => self.area_mm2,

@@ -8,7 +8,7 @@ use super::components::{NONE, Patch};
 use crate::disjoint::{find, unite};
 use crate::order::sort_by_number;
 
-/// Why a tree ended.
+/// Reason for which a tree ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum End {
     /// A component joins it with an older tree.

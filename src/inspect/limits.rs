@@ -176,7 +176,7 @@ impl Severities {
 /// The largest thickness or distance that is looked for, in millimetres.
 const MOST_MM: f64 = 20.0;
 
-/// Why limits cannot be used.
+/// Error of invalid limits.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -24,7 +24,7 @@ impl Span {
     }
 }
 
-/// The part of the screen that is looked at.
+/// The part of the screen that is examined.
 #[derive(Debug, Clone, Copy)]
 pub(super) struct Area {
     pub rows: i32,
@@ -407,8 +407,8 @@ impl Rest {
         &self.rest
     }
 
-    /// The pixels of `spans` that are in none of `others`, each of which is longer by its half width on both sides. No more of these
-    /// are looked at than it takes to leave nothing.
+    /// The pixels of `spans` that are in none of `others`, each of which is extended by its half width on both sides.
+    /// Stops once nothing is left.
     pub fn of<'a>(
         &mut self,
         spans: &[Span],

@@ -17,7 +17,7 @@ pub(super) struct Thickness {
     disc: Disc,
     /// Greatest distance of its centre.
     reach: Disc,
-    /// Rows that are looked at together.
+    /// Rows that are examined together.
     block_rows: i32,
     /// Blocks whose rows hold the disc.
     blocks: i32,

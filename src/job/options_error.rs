@@ -1,4 +1,4 @@
-//! Why options cannot be resolved.
+//! Errors of resolving options.
 
 use serde::Serialize;
 

@@ -12,7 +12,7 @@ use crate::model::ModelFile;
 use crate::model::read::ReadOptions;
 use crate::warning::Warning;
 
-/// Why a plan is rejected.
+/// Reason for which a plan is rejected.
 #[derive(Debug, PartialEq, thiserror::Error, Serialize)]
 #[serde(tag = "code", content = "detail", rename_all = "kebab-case")]
 #[non_exhaustive]

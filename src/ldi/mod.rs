@@ -64,7 +64,7 @@ impl GpuFault {
     }
 }
 
-/// Why no LDI could be made.
+/// Error of sampling an LDI.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail")]

@@ -11,8 +11,9 @@ use crate::progress::{Cancelled, Progress};
 /// Visibility of the facets of a mesh, as an LDI shows it.
 #[derive(Debug, Clone, PartialEq, Eq)]
 pub struct Visibility {
-    /// For each facet, whether it is wholly inside: at least one ray meets it, all that do are inside the solid there, and no other
-    /// facet passes through it; or the rays show the same of its whole body. Empty if there is no such facet.
+    /// For each facet, true if it is wholly inside: at least one ray meets it, all that do are inside the solid there,
+    /// and no other facet passes through it; or the rays show the same of its whole body. Empty if there is no such
+    /// facet.
     pub hidden: Vec<bool>,
     /// The facets that are not hidden although a ray meets them inside the solid, ascending: they may cross the surface.
     pub partly_inside: Vec<u32>,

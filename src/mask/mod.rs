@@ -282,7 +282,7 @@ impl Band {
     }
 }
 
-/// Which pixels of a mask's window are lit, row by row.
+/// Lit pixels of a mask's window, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub enum Light {
     /// One bit per pixel, most significant first; 1 is lit.

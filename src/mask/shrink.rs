@@ -15,9 +15,9 @@ use crate::ldi::{Ldi, printed_ranges};
 /// Compensations in masks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shrinking {
-    /// For each layer, by how much lit areas shrink on each side, in millimetres; negative: grow.
+    /// For each layer, the distance by which lit areas shrink on each side, in millimetres; negative: grow.
     pub xy_mm: Vec<f64>,
-    /// By how much surfaces that face down move up, in millimetres.
+    /// Distance by which surfaces that face down move up, in millimetres.
     pub z_mm: f64,
     /// The least width that shrinking leaves, measured along rows and columns, in millimetres; narrower features are not changed. 0 for none.
     pub least_mm: f64,

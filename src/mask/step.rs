@@ -50,7 +50,7 @@ impl Disc {
 /// The shrinking or growing of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
-    /// By how much on each side, in millimetres; negative if it grows.
+    /// Distance on each side, in millimetres; negative if it grows.
     mm: f64,
     disc: Disc,
     /// The least width that shrinking leaves, in columns and in rows.

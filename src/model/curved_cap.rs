@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 const WIDE: f64 = 0.1;
 /// and how far its border leaves a plane, as a fraction of its width.
 const BENT: f64 = 0.05;
-/// Longest border that is looked at: the cost is its length for each vertex of the cap.
+/// Longest border that is curved: the cost is its length for each vertex of the cap.
 const MOST_EDGES: usize = 4096;
 /// Spokes and rings of a cap.
 const SPOKES: usize = 48;

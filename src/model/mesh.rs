@@ -14,7 +14,7 @@ use super::facing::facing;
 use super::holes;
 use super::pose::{Pose, rotation_matrix};
 
-/// Why triangles do not make a printable mesh.
+/// Error of making a printable mesh from triangles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -10,7 +10,7 @@ use serde::Serialize;
 const MAGIC: &[u8; 8] = b"CUSPWT01";
 const HEAD_BYTES: usize = 16;
 
-/// Why weights cannot be used.
+/// Error of reading or using weights.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -36,7 +36,7 @@ impl SearchOptions {
         [cost, quality]
     }
 
-    /// Which limit an orientation exceeds.
+    /// Returns the limit that an orientation exceeds, if any.
     fn exclusion(&self, metrics: &Metrics) -> Option<Exclusion> {
         let exceeds = |value: f64, most: Option<f64>| most.is_some_and(|most| value > most);
         if exceeds(metrics.overhang_mm2, self.most_overhang_mm2) {

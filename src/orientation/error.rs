@@ -1,8 +1,8 @@
-//! Why a search cannot start, or rejects its input.
+//! Errors of an orientation search.
 
 use serde::Serialize;
 
-/// Why a search cannot start, or rejects its input.
+/// Error of starting a search, or of a rejected input.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

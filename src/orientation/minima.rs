@@ -8,7 +8,7 @@ use glam::{DVec3, Vec3};
 
 use crate::model::FacetLists;
 
-/// Vertices that are looked at together.
+/// Vertices that are examined together.
 const BLOCK: usize = 16;
 
 /// Edges at each vertex of a surface, which the others lie between.

@@ -144,7 +144,7 @@ pub struct Candidate {
     pub rotation: [f64; 4],
     /// Extent of the model in this orientation, in x, y and z.
     pub size_mm: [f64; 3],
-    /// Why the orientation cannot be printed, or should not; absent if it can.
+    /// Reason for which the orientation cannot or should not be printed; absent if it can.
     pub excluded: Option<Exclusion>,
     /// Metrics of the orientation; absent if it cannot be printed.
     pub metrics: Option<Metrics>,
@@ -152,7 +152,7 @@ pub struct Candidate {
     pub energy: Option<f64>,
 }
 
-/// Why an orientation cannot be printed, or should not by the limits of the search.
+/// Reason for which an orientation cannot be printed, or should not by the limits of the search.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]

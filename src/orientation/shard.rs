@@ -43,7 +43,7 @@ pub struct Part<O> {
     pub candidates: Vec<Candidate>,
 }
 
-/// Why parts cannot be merged.
+/// Error of merging parts.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[serde(tag = "code", content = "detail")]
 #[non_exhaustive]

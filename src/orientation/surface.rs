@@ -37,7 +37,7 @@ const OVERHANG: f32 = std::f32::consts::FRAC_1_SQRT_2;
 /// Sums that are made side by side, as each sum of a single chain would wait for the one before.
 const LANES: usize = 4;
 
-/// Facets that are looked at together.
+/// Facets that are examined together.
 const BLOCK: usize = 16 * LANES;
 
 /// Bytes per facet that a search takes on one thread: in the mesh, the surface, and the current placement.

@@ -27,7 +27,7 @@ use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
 use segment::{Segment, boundaries_below};
 
-/// Why there is no plan.
+/// Error of planning.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
 #[serde(tag = "code", content = "detail")]
@@ -65,7 +65,7 @@ pub enum PlanError {
     )]
     #[serde(rename = "not-whole-bins")]
     NotWholeBins {
-        /// Which length.
+        /// The length.
         quantity: Quantity,
         /// The length asked for.
         length_mm: f64,
@@ -79,7 +79,7 @@ pub enum PlanError {
     )]
     #[serde(rename = "not-whole-steps")]
     NotWholeSteps {
-        /// Which thickness.
+        /// The thickness.
         quantity: Quantity,
         /// The thickness asked for.
         length_mm: f64,
@@ -250,7 +250,7 @@ impl PlanError {
     }
 }
 
-/// Whose tolerance it is, as a noun and after an error.
+/// The owner of the tolerance, as a noun and after an error.
 fn owner(model_number: Option<usize>) -> [String; 2] {
     match model_number {
         None => ["the tolerance".to_owned(), String::new()],

@@ -229,8 +229,8 @@ impl Table {
         self.below[plane] = below;
     }
 
-    /// Notes a plan of this cost, weight and maximum error up to a plane, whose last layer begins at `below`, if it is better than
-    /// the one known. Returns whether it is.
+    /// Notes a plan of this cost, weight and maximum error up to a plane, whose last layer begins at `below`, if it is
+    /// better than the known one. Returns true if it is.
     pub(super) fn improve(&mut self, plane: u32, found: [u64; 3], below: u32) -> bool {
         let is_better = found < self.at(plane);
         if is_better {

@@ -34,7 +34,7 @@ pub(super) struct Basins {
     /// The part of each node of the last slice.
     below: Vec<u32>,
     slices: usize,
-    /// Parts that joined others and need holes all the same.
+    /// Parts that joined others and still need holes.
     found: Vec<(usize, usize)>,
 }
 

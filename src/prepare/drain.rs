@@ -17,7 +17,7 @@ use crate::model::Bounds;
 pub struct Drain {
     /// The point where it enters the model, in the frame of reports: centred on x = y = 0, with the plate at z = 0.
     pub at_mm: [f64; 3],
-    /// Which way it goes in, of any length but 0.
+    /// Its inward direction, of any length but 0.
     pub direction: [f64; 3],
     /// Its diameter.
     pub diameter_mm: f64,

@@ -1,4 +1,4 @@
-//! Which cavities of a model are joined to its void, and which stay closed.
+//! Cavities of a model: those that are joined to its void, and those that stay closed.
 
 use super::cavities::Cavities;
 use super::columns::Columns;

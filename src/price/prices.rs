@@ -63,7 +63,7 @@ pub struct QuantityBreak {
     pub discount: f64,
 }
 
-/// Why there is no price.
+/// Error of pricing.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

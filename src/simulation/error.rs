@@ -1,10 +1,10 @@
-//! Why a print file cannot be simulated.
+//! Errors of simulating a print file.
 
 use crate::archive::read::PrintFileError;
 use crate::model::MeshError;
 use crate::progress::Cancelled;
 
-/// Why a print file cannot be simulated.
+/// Error of simulating a print file.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum SimulationError {

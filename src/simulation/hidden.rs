@@ -1,8 +1,8 @@
-//! Which facets are not on the surface of the solid: inside it, between bodies that overlap, say, or outside, as folds of a
-//! surface that enclose nothing. No print shows them.
+//! Facets that are not on the surface of the solid: inside it, between bodies that overlap, say, or outside, as folds
+//! of a surface that enclose nothing. No print shows them.
 //!
-//! A facet that no other facet meets is hidden or on the surface as a whole, so one point decides. A facet that another one
-//! cuts or touches is asked at every point that matters.
+//! A facet that no other facet meets is hidden or on the surface as a whole, so one point decides. A facet that another
+//! one cuts or touches is asked at every point that matters.
 
 use glam::DVec3;
 

@@ -106,7 +106,7 @@ pub struct Simulation {
     pub placement: Placement,
     /// The centre of the masks relative to that of the model's bounding box, in x and y.
     pub offset_mm: [f64; 2],
-    /// By how much the greatest distances may be too small, because surfaces are asked at points: half a pixel.
+    /// Amount by which the greatest distances may be too small, because surfaces are sampled at points: half a pixel.
     pub precision_mm: f64,
     /// Number of facets that are left out because they are not on the surface of the solid: between overlapping bodies, for
     /// example.
@@ -221,7 +221,8 @@ fn standing(
     Ok(Mesh::from_triangles(&triangles)?)
 }
 
-/// Moves the masks to their place, and returns what told it and how far their centre is from the model's.
+/// Moves the masks to their place, and returns the source of that place and the distance of their centre from the
+/// model's.
 fn place(printed: &mut Printed, mesh: &Mesh) -> (Placement, DVec2) {
     let bounds = mesh.bounds();
     let lit = printed.lit_centre();

@@ -23,8 +23,8 @@ const RUN: usize = 64;
 /// Means are over the middles of triangles whose corners are within this many pixels of them.
 const SAMPLE_PIXELS: f64 = 4.0;
 
-/// By how much the greatest distance found may be too small, in millimetres: half a pixel. Those of layers may be by twice as
-/// much.
+/// Amount by which the greatest distance found may be too small, in millimetres: half a pixel. Those of layers may be
+/// too small by twice as much.
 pub(super) fn precision_mm(printed: &Printed) -> f64 {
     printed.pitch.min_element() * 0.5
 }

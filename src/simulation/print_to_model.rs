@@ -62,7 +62,7 @@ struct Faces {
     row: i32,
     /// Number of faces.
     count: i32,
-    /// Which side is printed. Faces of either side have hints of their own, for thin walls have facets on both.
+    /// The side that is printed. Faces of either side have hints of their own, for thin walls have facets on both.
     side: bool,
 }
 

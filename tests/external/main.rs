@@ -28,7 +28,7 @@ const PYTHON_VARIABLE: &str = "CUSP_PEERS_PYTHON";
 #[derive(Clone, Copy)]
 enum Need {
     Gpu,
-    /// A program, with an argument that shows whether it is installed.
+    /// A program, with an argument that shows if it is installed.
     Program(&'static str, &'static str),
     /// A Python with these modules.
     Python(&'static str),

@@ -124,7 +124,7 @@ impl Step {
                 )
             }
             Self::Engines => {
-                // If they are missing all the same, their tests show as ignored.
+                // If they are still missing, their tests show as ignored.
                 debian::try_ensure(&ENGINE_PACKAGES);
                 let mut npm = page(project)?;
                 // Files are compared with those that it writes.

@@ -35,7 +35,7 @@ impl From<Vec<u8>> for Bytes<'static> {
     }
 }
 
-/// Which byte of a number comes first.
+/// Byte order of numbers.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub(super) enum Order {
     /// The lowest.

@@ -1,4 +1,4 @@
-//! Why a print file, or a layer of it, cannot be read.
+//! Errors of reading a print file, or a layer of it.
 
 use serde::Serialize;
 
@@ -31,7 +31,7 @@ impl UnreadKind {
     }
 }
 
-/// Why a print file cannot be read. `Display` writes one sentence that begins with the file as "it"; serialised, an error
+/// Error of reading a print file. `Display` writes one sentence that begins with the file as "it"; serialised, an error
 /// is its code and an object of typed details.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]

@@ -171,8 +171,8 @@ fn layer(fields: Fields<'_>, at: u64) -> Result<Layer, PrintFileError> {
     })
 }
 
-/// Decodes a layer's data, from the 0x55 to the checksum. Runs of data with a wrong checksum are passed on all the same.
-/// With `is_fine` greys go to 255, otherwise to 15.
+/// Decodes a layer's data, from the 0x55 to the checksum. Runs of data with a wrong checksum are passed on
+/// nevertheless. With `is_fine` greys go to 255, otherwise to 15.
 pub fn decode(data: &[u8], is_fine: bool, coverage: &mut Coverage<'_>) -> Result<(), LayerFault> {
     let [0x55, chunks @ .., stated] = data else {
         return Err(LayerFault::BadRun { byte: 0 });

@@ -360,7 +360,7 @@ fn read_archive(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     read(archive)
 }
 
-/// Why a zip without the settings of a print file cannot be read.
+/// The error for a zip without the settings of a print file.
 fn without_masks(archive: &Archive<'_>) -> PrintFileError {
     /// Names under which slicers of filament printers look for layers.
     const LAYERS: [&str; 2] = [

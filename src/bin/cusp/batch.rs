@@ -48,7 +48,7 @@ pub struct BatchLine<T> {
 enum Outcome<T> {
     /// The report that the command prints for a single model.
     Report(T),
-    /// Why there is none.
+    /// The problem that prevented it.
     Error(Problem),
 }
 

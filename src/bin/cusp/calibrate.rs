@@ -18,7 +18,7 @@ use crate::watch::stop_on_interrupt;
 
 #[derive(Subcommand)]
 pub enum Calibrating {
-    /// True if the printer prints layers of several thicknesses: two towers to measure with a caliper
+    /// Write two towers to measure with a caliper, which show if the printer prints layers of several thicknesses
     Layers {
         #[command(flatten)]
         target: Target,
@@ -29,7 +29,7 @@ pub enum Calibrating {
         #[arg(long)]
         json: bool,
     },
-    /// Which exposure each thickness needs: a grid of towers with ridges and slots
+    /// Write a grid of towers with ridges and slots, which shows the exposure that each thickness needs
     Exposure {
         /// Layer thicknesses, one for each row of towers
         #[arg(long, value_name = "MM,MM,...", value_delimiter = ',', value_parser = length, default_values_t = [0.03, 0.05, 0.1])]

@@ -146,7 +146,7 @@ fn write(
     Ok((file.end().map_err(failed)?, report))
 }
 
-/// Why cutting stops early.
+/// Reason for which cutting stops early.
 enum Stop {
     Cancelled,
     Write(io::Error),

@@ -1,4 +1,4 @@
-//! Why a command fails, for people and for programs.
+//! Failures of commands, for people and for programs.
 
 use std::fmt::Display;
 use std::path::Path;
@@ -15,7 +15,7 @@ use crate::visible::{visible, visible_detail};
 /// The exit code of a command that was interrupted.
 const INTERRUPTED: u8 = 130;
 
-/// Why a command failed.
+/// Failure of a command.
 pub struct Failure {
     pub exit_code: u8,
     /// The message for the user; `None` if it has already been shown.
@@ -57,7 +57,7 @@ impl Problem {
 /// The JSON of a command that fails.
 #[derive(Serialize, schemars::JsonSchema)]
 pub struct Failed {
-    /// Why.
+    /// The problem.
     pub error: Problem,
 }
 

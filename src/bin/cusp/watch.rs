@@ -159,7 +159,7 @@ pub fn is_stopped() -> bool {
     INTERRUPTED.load(Ordering::Relaxed) || EXCEEDED.get().is_some()
 }
 
-/// Why a command was stopped, in place of its own failure if it exceeded a bound.
+/// The failure of a command that was stopped: of the bound that it exceeded, if any, in place of its own.
 pub fn reason(failure: Failure) -> Failure {
     match EXCEEDED.get() {
         Some(error) if failure.is_interrupt() => Failure::without_file(error),

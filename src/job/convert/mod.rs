@@ -50,7 +50,7 @@ pub struct Conversion<'a> {
     losses: Vec<Loss>,
 }
 
-/// Why a print file cannot be converted. `Display` writes one sentence.
+/// Error of converting a print file. `Display` writes one sentence.
 #[derive(Debug, thiserror::Error)]
 #[non_exhaustive]
 pub enum ConvertError {

@@ -106,7 +106,7 @@ pub(super) fn exposures(
     };
     let usual = &layers[layers.len() / 2];
     let usual_s = schedule.map_or(exposure_s[layers.len() / 2], |schedule| schedule.usual_s);
-    // A printer that has bottom layers all the same does not expose them longer than the file does.
+    // A printer that always has bottom layers does not expose them longer than the file does.
     let bottom_exposure_s = match schedule {
         Some(schedule) if bottom_layers + transition_layers > 0 => schedule.bottom_s,
         _ => exposure_s[0],

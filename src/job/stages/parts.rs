@@ -90,7 +90,7 @@ pub(crate) enum Target {
     Time(f64),
 }
 
-/// Which of the thicknesses within the limits layers may have, and in which order, if the optimal planner chooses them.
+/// Thicknesses within the limits that layers may have, and their order, if the optimal planner chooses them.
 #[derive(Debug, Clone, PartialEq)]
 pub(crate) enum Thicknesses {
     /// Any.

@@ -259,7 +259,7 @@ impl Sampled {
         }
     }
 
-    /// Why there is no LDI, if that is so.
+    /// The bound that prevents an LDI, if there is none.
     pub fn bound(&self) -> Option<Bound> {
         match self.hits {
             Hits::Kept(_) => None,

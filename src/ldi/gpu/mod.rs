@@ -26,7 +26,7 @@ use crate::grid::Grid;
 use crate::model::Mesh;
 use crate::progress::{Progress, report};
 
-/// Which adapters may be used.
+/// Kinds of adapters that may be used.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Adapters {
     /// Any adapter, including software emulation.

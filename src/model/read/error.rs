@@ -1,4 +1,4 @@
-//! Why a file could not be read as a model.
+//! Errors of reading a file as a model.
 
 use serde::Serialize;
 
@@ -7,7 +7,7 @@ use super::obj::ObjError;
 use super::stl::StlError;
 use super::threemf::ThreeMfError;
 
-/// Why a file could not be read as a model.
+/// Error of reading a file as a model.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -159,7 +159,7 @@ fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
         }
         let here = at(corner);
         let away_mm = middle(root).distance(here);
-        // The same vertex in whichever order facets are.
+        // The same vertex in any order of facets.
         let is_nearer = |(least_mm, other): (f64, usize)| {
             let other = at(other);
             let ties = here.x.total_cmp(&other.x).then(here.y.total_cmp(&other.y));
@@ -182,7 +182,7 @@ fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
         vertex + (middle(root) - vertex) * part
     });
     let mut points: Vec<DVec3> = found.filter(|at| !is_buried(ldi, *at)).collect();
-    // In the same order in whichever order facets are.
+    // In the same order for any order of facets.
     sort_by_number(&mut points, |at| at.y);
     sort_by_number(&mut points, |at| at.x);
     sort_by_number(&mut points, |at| at.z);
@@ -395,7 +395,7 @@ impl Surface<'_> {
     /// Coordinates are whole micrometres, as in reports, so that a report's points give the same contacts.
     pub(super) fn contact(&self, point: DVec3, diameter_mm: f64, reach_mm: f64) -> Option<Contact> {
         let near = self.within(point, reach_mm).into_iter();
-        // Of those as near to a micrometre the same one, in whichever order facets are.
+        // Of facets equally near to a micrometre the same one, in any order of facets.
         let is_before = |a: &(f64, DVec3, u32), b: &(f64, DVec3, u32)| {
             let [a_um, b_um] = [a.0, b.0].map(|mm| (mm * 1e3).round());
             let ties = a.1.x.total_cmp(&b.1.x).then(a.1.y.total_cmp(&b.1.y));

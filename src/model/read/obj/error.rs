@@ -1,8 +1,8 @@
-//! Why bytes are not a usable OBJ.
+//! Errors of reading an OBJ.
 
 use serde::Serialize;
 
-/// Why a file could not be read as OBJ.
+/// Error of reading a file as OBJ.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -1,4 +1,4 @@
-//! Why bytes are not a usable STL.
+//! Errors of reading an STL.
 
 use serde::Serialize;
 
@@ -44,7 +44,7 @@ impl std::fmt::Display for StlExpected {
     }
 }
 
-/// Why bytes could not be read as an STL.
+/// Error of reading bytes as an STL.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]

@@ -1,4 +1,4 @@
-//! Why bytes are not a usable 3MF.
+//! Errors of reading a 3MF.
 
 use serde::Serialize;
 
@@ -68,7 +68,7 @@ impl ThreeMfFeature {
     }
 }
 
-/// Why a file could not be read as 3MF. Parts are the files in its zip.
+/// Error of reading a file as 3MF. Parts are the files in its zip.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(tag = "code", content = "detail")]
