@@ -113,7 +113,7 @@ pub enum Warning {
     ClosedCavities {
         /// Number of such cavities.
         cavities: usize,
-        /// Their volume.
+        /// Volume of all of them.
         volume_mm3: f64,
         /// A point in the largest, in millimetres from the middle of the plate.
         at_mm: [f64; 3],

@@ -19,7 +19,7 @@ const LEAST_SUPPORTED_MM: f64 = 0.5;
 /// Room for the rounding of an error.
 const ROOM: f64 = 1e-6;
 
-/// Those of a file that is not there.
+/// Facts of a model without a file.
 pub const FACTS: FileFacts = FileFacts {
     file: ModelFile {
         bytes: 0,

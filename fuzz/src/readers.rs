@@ -28,7 +28,7 @@ const PREVIEWS: [(usize, &[u8], Range<usize>); 2] = [
 const CTB: &[u8] = &[0x86, 0, 0xFD, 0x12];
 const CTB_PREVIEWS: usize = 0x90;
 const CTB_SETTINGS: usize = 0x54;
-/// More than any preview takes.
+/// Bound of the end of previews in a file: no preview is larger.
 const MOST_PREVIEW_BYTES: usize = 1 << 16;
 
 /// Range of the previews in a file that begins like this, if seeds lack them.

@@ -94,7 +94,7 @@ const MODEL: ModelFile = ModelFile {
     curved_caps: false,
 };
 
-/// That plan, as the seed of [`plan`].
+/// The report of that plan, as the seed of [`plan`].
 pub fn made_plan() -> String {
     serde_json::to_string(&*MADE).expect("a report can be written")
 }

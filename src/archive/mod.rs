@@ -243,9 +243,10 @@ pub struct Layer {
 /// Source of the masks of a print file.
 #[derive(Clone, Copy)]
 pub enum MaskSource<'a> {
-    /// Their runs are read, and encoded here.
+    /// Runs, which are read and encoded here.
     Runs(&'a dyn RunSource),
-    /// They are encoded elsewhere: this fetches each group of [`GROUP`] layers, counted from 0, as [`encode_group`] encodes it.
+    /// Layers encoded elsewhere: this fetches each group of [`GROUP`] layers, counted from 0, as [`encode_group`]
+    /// encodes it.
     Encoded(&'a dyn Fn(usize) -> Vec<u8>),
 }
 

@@ -71,7 +71,7 @@ impl Bridges {
         Self { lines }
     }
 
-    /// Those of the pixels `found` that no bridge holds. They are some of the unsupported ones.
+    /// Returns the pixels of `found` that no bridge holds. `found` is a part of the unsupported pixels.
     pub fn not_held(&self, found: &Rows, unsupported: &Rows, supported: &Rows) -> Rows {
         let mut rest = found.clone();
         for &(step, most) in &self.lines {

@@ -24,7 +24,7 @@ pub(super) enum End {
 pub(super) enum Joining {
     /// It ends, and its volume counts as the older one's.
     Ends,
-    /// They are one from the beginning, unless the older one is the outside.
+    /// Both are one from the beginning, unless the older one is the outside.
     Unites,
 }
 
@@ -43,7 +43,7 @@ pub(super) struct Tree {
     pub begin: Patch,
     /// The pixels of the layer that has most of them.
     pub largest: Patch,
-    /// That layer.
+    /// The layer with these pixels.
     pub largest_layer: usize,
     /// The box around all layers.
     pub around: Patch,

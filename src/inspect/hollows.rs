@@ -15,7 +15,7 @@ use super::rows::Rows;
 #[derive(Default)]
 pub(super) struct Gaps {
     pub components: Components,
-    /// Those that meet the outside in their own layer.
+    /// For each component, true if it meets the outside in its own layer.
     pub is_open: Vec<bool>,
 }
 

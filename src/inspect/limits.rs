@@ -10,11 +10,11 @@ use super::finding::Code;
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(rename_all = "lowercase")]
 pub enum Severity {
-    /// Not looked for.
+    /// Ignored: the checks do not look for it.
     Ignore,
-    /// Somebody should look at it before it is printed.
+    /// A person should check it before printing.
     Review,
-    /// Not printed like this.
+    /// The print is rejected.
     Reject,
 }
 

@@ -48,7 +48,7 @@ use sweep::Sweep;
 pub enum Verdict {
     /// Prints it.
     Ok,
-    /// Has somebody look at it.
+    /// Has a person check it.
     Review,
     /// Does not print it like this.
     Reject,

@@ -264,7 +264,7 @@ impl Default for Options {
 }
 
 impl Options {
-    /// These options with the limits of layers that apply if none are given. They give the same plan.
+    /// Fills in the limits of layers that apply if none are given. The plan is the same.
     #[must_use]
     pub fn settled(&self) -> Self {
         let (nozzle_mm, first_layer_mm, [layer_min_mm, layer_max_mm]) = match self.filament() {
@@ -301,7 +301,7 @@ impl Options {
         self.format.and_then(FilamentSlicer::of)
     }
 
-    /// These options as a report has them: settled, and with the default backend and method, since neither affects a plan.
+    /// Options for a report: settled, and with the default backend and method, since neither affects a plan.
     pub(crate) fn as_reported(&self) -> Self {
         Self {
             backend: Backend::default(),

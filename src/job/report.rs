@@ -254,7 +254,7 @@ pub struct UniformReport {
     pub coarsest: PlannerReport,
     /// The fewest uniform layers within tolerance; absent if no thickness keeps it.
     pub fewest: Option<BestUniform>,
-    /// Those within tolerance that print in the shortest time.
+    /// The quickest uniform layers within tolerance; absent if no thickness keeps it.
     pub quickest: Option<BestUniform>,
     /// True if an adaptive plan saves less than 3 % against the best of these, in layers or in time, whichever the
     /// options minimize.
@@ -278,7 +278,7 @@ impl UniformReport {
 pub struct BestUniform {
     /// Thickness of each in millimetres.
     pub layer_mm: f64,
-    /// Their number.
+    /// Number of layers.
     pub layers: usize,
     /// The largest error of a layer, in the metric's unit, from the source that plans are made from.
     pub max_error: f64,

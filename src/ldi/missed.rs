@@ -9,7 +9,7 @@ use crate::model::{Mesh, bodies, windings_at};
 /// Bodies of a model that no ray meets.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Missed {
-    /// Their number.
+    /// Number of such bodies.
     pub bodies: usize,
     /// The middle of the largest, in millimetres.
     pub at_mm: DVec3,

@@ -67,15 +67,15 @@ pub enum Anew {}
 /// The rays of a mesh, to be passed over once or several times.
 #[derive(Debug, Clone, Copy)]
 pub enum RayImage<'a> {
-    /// Those of an LDI.
+    /// The rays of an LDI.
     Kept(&'a Ldi),
-    /// Those of a mesh through a grid, found again in every pass by the CPU: a band of rows per thread is in memory.
+    /// The rays of a mesh through a grid, found again in every pass by the CPU: a band of rows per thread is in memory.
     Scanned {
         /// The mesh.
         mesh: &'a Mesh,
         /// The grid whose pixel centres the rays pass.
         grid: Grid,
-        /// Leave to do so.
+        /// Permission to do so.
         leave: Anew,
     },
 }

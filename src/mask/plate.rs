@@ -35,7 +35,7 @@ impl PlateMasks {
         (stamp.offsets == [[0, 0]]).then_some(&stamp.masks)
     }
 
-    /// Their runs.
+    /// The runs of all masks.
     pub fn runs(&self) -> PlateRuns<'_> {
         let stamps = self.stamps.iter();
         PlateRuns {

@@ -121,9 +121,9 @@ struct Reader<'a> {
     sublayer_of: SublayerOf,
     /// The rows of rays of each band of pixels.
     bands: Vec<Range<usize>>,
-    /// Of each band, how its rays enter the next slab.
+    /// For each band, the winding numbers with which its rays enter the next slab.
     windings: Vec<Windings>,
-    /// Of each band, changes that belong to the next slab already.
+    /// For each band, changes that already belong to the next slab.
     carried: Vec<Vec<Change>>,
     /// The masks of the slab, and how far they have been read.
     slab: Option<(Masks, ReadPlace)>,

@@ -87,7 +87,7 @@ pub struct Winding {
 }
 
 impl Winding {
-    /// Of the winding numbers of model, void and support.
+    /// From the winding numbers of model, void and support.
     pub fn of([model, void, support]: [i32; 3]) -> Self {
         Self {
             model,

@@ -31,7 +31,7 @@ impl Neighbours {
         }
     }
 
-    /// Those of the same mesh with the second and third corners of some facets swapped.
+    /// The neighbours in the same mesh with the second and third corners of some facets swapped.
     pub(super) fn turned(&self, turned: &[bool]) -> Self {
         let across = self.0.iter().zip(turned);
         Self(

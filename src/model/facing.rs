@@ -19,8 +19,8 @@ pub(super) struct Facing {
     pub contradictions: usize,
 }
 
-/// Of the facets of a patch that disagree with each other, the fraction that suffices to decide for the patch. Where fewer agree, its
-/// outside is where its volume is positive.
+/// Fraction of the disagreeing facets of a patch that suffices to decide for the patch. If fewer agree, its outside is
+/// where its volume is positive.
 const MAJORITY: f64 = 0.75;
 
 /// Carries the facing of facets across edges. `None` if all facets of each patch agree.

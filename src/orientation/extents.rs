@@ -16,7 +16,7 @@ pub(super) struct Points {
     centres_mm: [Vec<f64>; 3],
     /// Half the sizes of these boxes, one list per axis.
     halves_mm: [Vec<f64>; 3],
-    /// More than places along an axis are rounded by.
+    /// Bound of the rounding of places along an axis.
     slack_mm: f64,
 }
 

@@ -15,7 +15,7 @@ pub struct SnapPlanes<'a> {
 /// Cost of omitting a snap plane.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Price {
-    /// As much as a layer, or the time of the thinnest one. Where both cost the same, the plane is kept.
+    /// The cost of a layer, or the time of the thinnest one. If both cost the same, the plane is kept.
     Layer,
     /// Nothing: snap planes only choose among plans of the least cost.
     Nothing,

@@ -13,7 +13,7 @@ const PASSED: usize = 512;
 #[derive(Clone, Copy)]
 pub(super) struct Candidate<Cost, Mark> {
     pub plane: u32,
-    /// Of the layers below; one on top then costs as much from any of the least cost.
+    /// Cost of the layers below. A layer on top adds the same cost to all candidates of the least cost.
     pub cost: Cost,
     /// The smallest maximum error of the layers below, in steps.
     pub worst: u64,

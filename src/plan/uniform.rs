@@ -14,7 +14,7 @@ use crate::quantity::Quantity;
 pub struct UniformLayers {
     /// Thickness of each in millimetres.
     pub layer_mm: f64,
-    /// Their number.
+    /// Number of layers.
     pub layers: usize,
 }
 

@@ -32,7 +32,7 @@ pub struct Drain {
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
 pub struct AutoDrain {
-    /// Their diameter.
+    /// Diameter of the holes.
     pub diameter_mm: f64,
     /// True if they keep off facets that weigh more than a half, where another way leads out. Resin that stays inside is worse than a
     /// hole that shows.

@@ -10,9 +10,9 @@ use crate::progress::Progress;
 /// Cavities of a model that stay closed.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub struct Closed {
-    /// Their number.
+    /// Number of such cavities.
     pub cavities: usize,
-    /// Their volume.
+    /// Volume of all of them.
     pub volume_mm3: f64,
     /// A point in the largest.
     pub at_mm: [f64; 3],
@@ -25,7 +25,7 @@ const LEAST_CAVITY_MM3: f64 = 1.0;
 pub(super) struct Joined {
     /// The model with these filled.
     pub model: Columns,
-    /// They alone, if there are any.
+    /// The cavities alone, if there are any.
     pub cavities: Option<Columns>,
     /// The others.
     pub closed: Vec<bool>,

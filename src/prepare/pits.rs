@@ -72,7 +72,7 @@ fn faces_down(shell: &Shell) -> Vec<bool> {
 
 /// Adjacency of vertices.
 struct Beside {
-    /// Those of vertex i are from `starts[i]` to `starts[i + 1]`.
+    /// Neighbours of vertex i are from `starts[i]` to `starts[i + 1]`.
     starts: Vec<u32>,
     vertices: Vec<u32>,
 }

@@ -74,7 +74,7 @@ impl Squares {
         self.columns * self.rows
     }
 
-    /// Those that a box meets, or is nearest to.
+    /// The squares that a box meets, or the nearest ones.
     #[inline]
     pub fn within(&self, low: DVec3, high: DVec3) -> impl Iterator<Item = usize> + use<> {
         let place = |at: DVec3| (at.truncate() - self.corner) / SQUARE_MM;

@@ -28,10 +28,10 @@ pub struct Strictness {
 }
 
 impl Strictness {
-    /// That of a model without a tolerance of its own.
+    /// For a model without a tolerance of its own.
     pub const NONE: Self = Self { own: 1, of: 1 };
 
-    /// That of a model whose tolerance is `own` in a plan of the tolerance `of`, in the same steps.
+    /// For a model whose tolerance is `own` in a plan of the tolerance `of`, in the same steps.
     pub fn new(own: u64, of: u64) -> Self {
         if own == of {
             Self::NONE
@@ -40,7 +40,7 @@ impl Strictness {
         }
     }
 
-    /// That of a model whose errors count nothing up to `own` steps, and are beyond every tolerance above.
+    /// For a model whose errors count nothing up to `own` steps, and are beyond every tolerance above.
     pub fn within_or_not(own: u64) -> Self {
         Self { own, of: 0 }
     }

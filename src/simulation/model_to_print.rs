@@ -312,7 +312,7 @@ enum Rest {
     Shown,
     /// Nothing: it is inside the solid.
     Hidden,
-    /// These facets; parts of it may be hidden.
+    /// Facets that meet it; parts of it may be hidden.
     Met(Vec<Meeting>),
 }
 

@@ -238,7 +238,7 @@ impl Voxels {
         (x * x + y * y).sqrt()
     }
 
-    /// Those of some pixels that are farther than `limit_mm` from all of the others.
+    /// The pixels that are farther than `limit_mm` from all of the others.
     fn beyond(&self, pixels: &[bool], others: &[bool], limit_mm: f64) -> Plane {
         let limit_mm = limit_mm * (1.0 + 1e-9);
         let columns = (limit_mm / self.grid.pitch_mm) as usize + 1;

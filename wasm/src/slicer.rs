@@ -272,7 +272,7 @@ impl Job {
         model.set_weights(weights).map_err(throw)
     }
 
-    /// These weights as a file for a model.
+    /// Writes weights as a file for a model.
     ///
     /// # Errors
     /// Throws a `CuspError` unless there is a weight from 0 to 1 for every facet.

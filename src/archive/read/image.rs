@@ -131,7 +131,7 @@ pub(super) fn row_runs(
     }
 }
 
-/// Like [`row_runs`], of a row in which each colour of a pixel is a pixel of the mask.
+/// Same as [`row_runs`], for a row in which each colour of a pixel is a pixel of the mask.
 pub(super) fn subpixel_runs(
     row: Row<'_>,
     width: u32,

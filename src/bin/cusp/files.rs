@@ -148,7 +148,7 @@ pub fn numbered(output: &Path, plates: usize) -> Vec<PathBuf> {
 
 /// A file to write, either completely or not at all; or standard output, for which that cannot be promised.
 pub struct Output<'a> {
-    /// As the user named it.
+    /// Path as given by the user.
     path: &'a Path,
     /// The file itself, or the target of a link, so that links stay links. `None` for standard output.
     place: Option<PathBuf>,

@@ -51,7 +51,7 @@ pub struct Simulating {
 struct Originals {
     paths: Vec<PathBuf>,
     models: Vec<Original>,
-    /// Their copies, by the job file.
+    /// Copies of the models, by the job file.
     copies: Vec<PrintedCopy>,
 }
 

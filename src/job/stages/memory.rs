@@ -45,7 +45,7 @@ pub(in crate::job) fn hits_of(mesh: &Mesh, rays: &Grid) -> f64 {
 }
 
 impl Memory {
-    /// These bytes for one model.
+    /// A bound of these bytes for one model.
     #[cfg(not(target_arch = "wasm32"))]
     pub fn of(bytes: u64) -> Self {
         Self {

@@ -43,11 +43,11 @@ pub(crate) struct Sampling {
 /// Layout of the masks' pixels.
 #[derive(Debug, Clone, Copy, PartialEq)]
 pub(crate) enum Raster {
-    /// This many along the model's longer horizontal side.
+    /// A number of pixels along the model's longer horizontal side.
     Around { pixels: u32 },
-    /// As many of this pitch as cover the model.
+    /// The fewest pixels of a pitch that cover the model.
     OfPitch { pitch_mm: f64 },
-    /// Those of a plate, with the model at the centre.
+    /// The pixels of a plate, with the model at its centre.
     Plate {
         pixels: [u32; 2],
         pitch_mm: [f64; 2],

@@ -328,7 +328,7 @@ fn drain_warnings(void: &Void) -> Vec<Warning> {
     warnings
 }
 
-/// As people write it; without -0.
+/// Rounds to three decimals, as people write numbers; without -0.
 fn rounded(number: f64) -> f64 {
     (number * 1e3).round() / 1e3 + 0.0
 }

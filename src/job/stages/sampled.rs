@@ -43,7 +43,7 @@ pub struct Sampled {
 #[derive(Debug)]
 enum Hits {
     Kept(Ldi),
-    /// They do not fit into the memory that may be taken, and are found when they are needed.
+    /// Hits that do not fit into memory, and are found again when they are needed.
     Anew(Bound),
 }
 

@@ -66,7 +66,7 @@ pub struct Sharing {
     /// The model, counted from 1, if it has its own.
     pub model_number: Option<usize>,
     pub tolerance: f64,
-    /// Those of the other models are 0, or beyond every tolerance where they exceed their own.
+    /// Errors of layers: those of other models are 0, or beyond every tolerance if they exceed their own.
     pub errors: LayerErrors,
     /// The same with 0 for all layers of the other models.
     pub errors_alone: LayerErrors,

@@ -94,7 +94,7 @@ pub struct ReadOptions {
 }
 
 impl Contents {
-    /// Those of a file that states no unit.
+    /// Contents of a file that states no unit.
     fn without_unit(triangles: Triangles) -> Self {
         Self {
             triangles,

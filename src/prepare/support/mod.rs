@@ -216,7 +216,7 @@ const MOST_MM: f64 = 50.0;
 /// The supports of a model.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Supports {
-    /// Their bodies, which overlap each other and the model.
+    /// Bodies of the supports, which overlap each other and the model.
     pub shell: Shell,
     /// The points that are supported.
     pub points: Vec<SupportPoint>,

@@ -97,7 +97,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
     }
 }
 
-/// These runs, and black pixels up to the area.
+/// Appends black pixels up to the area.
 fn filled(runs: impl IntoIterator<Item = (u8, u64)>, area: u64) -> Runs {
     let mut runs: Runs = runs.into_iter().collect();
     runs.add(0, area - runs.area());
