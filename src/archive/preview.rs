@@ -79,7 +79,7 @@ impl Standing<'_> {
     }
 }
 
-/// The rays that are in the picture: every so manyth of the plate, in columns and rows.
+/// The rays that are in the picture: every `step`th column and row of the plate.
 struct Raster {
     /// The first column and row of the plate.
     first: [i64; 2],

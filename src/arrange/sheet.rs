@@ -32,7 +32,7 @@ impl Sheet {
         }
     }
 
-    /// Places a copy in the shape that ends farthest back, and returns whether there was room. `ranges` are the places that
+    /// Places a copy in the shape that ends farthest back, and returns true if there was room. `ranges` are the places that
     /// each shape may have.
     pub fn place(
         &mut self,

@@ -171,7 +171,7 @@ fn folds_back(before: &Segment, after: &Segment) -> bool {
     turn(p, q, r) == 0 && along(0) + along(1) > 0
 }
 
-/// Restores chains whose segments touch others. Returns whether there were any.
+/// Restores chains whose segments touch others. Returns true if there were any.
 fn restore_touching(outlines: &mut [Outline<'_>]) -> bool {
     let mut segments: Vec<Segment> = outlines
         .iter()
@@ -216,7 +216,7 @@ fn segments<'a>(number: usize, outline: &'a Outline<'_>) -> impl Iterator<Item =
     })
 }
 
-/// Restores rings that are turned over, or have another side towards another ring. Returns whether there were any.
+/// Restores rings that are turned over, or have another side towards another ring. Returns true if there were any.
 fn restore_changed(outlines: &mut [Outline<'_>]) -> bool {
     let seats: Vec<Point> = outlines
         .iter()

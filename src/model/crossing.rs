@@ -8,7 +8,7 @@ use super::Mesh;
 /// Cells along each axis that a facet may meet to be listed in them; larger facets are held against all others.
 const MOST_CELLS: i32 = 16;
 
-/// For each of `facets`, whether another facet of the model passes through it, or it through the other. Touching is no crossing.
+/// For each of `facets`, true if another facet of the model passes through it, or it through the other. Touching is no crossing.
 ///
 /// Cost: linear in facets where they are of similar sizes.
 pub fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {

@@ -20,7 +20,7 @@ pub(crate) struct Shapes {
     pub flats: Vec<Flat>,
     /// The normal cones of the surface, hidden ones included; empty if no metric needs them.
     cones: Vec<Cone>,
-    /// For each facet, whether it lies wholly inside the solid; may be empty.
+    /// For each facet, true if it lies wholly inside the solid; may be empty.
     hidden: Vec<bool>,
     /// True if bodies overlap in a way that only rays can resolve.
     pub overlaps: bool,

@@ -16,7 +16,7 @@ use crate::common::{on_plate, shifted_grid};
 /// pixel along each axis.
 const SNAPPING: f64 = std::f64::consts::SQRT_2 / 512.0;
 
-/// For each column of a row of pixels, whether its centre is inside, by the crossings of outlines to its left; and the crossings.
+/// For each column of a row of pixels, true if its centre is inside, by the crossings of outlines to its left; and the crossings.
 fn fill(segments: &[[[f64; 2]; 2]], centres: impl Iterator<Item = f64>, y: f64) -> Vec<bool> {
     let mut crossings: Vec<f64> = segments
         .iter()

@@ -35,7 +35,7 @@ fn files() -> Vec<Vec<u8>> {
     files
 }
 
-/// Reads whatever can be read, and returns whether something was wrong.
+/// Reads whatever can be read, and returns true if something was wrong.
 fn is_bad(bytes: &[u8]) -> bool {
     let Ok(file) = PrintFile::open(bytes) else {
         return true;

@@ -416,7 +416,7 @@ impl Voxels {
         self.regions(Code::SmallHole, &planes, limits.speck_px, limits.hole_mm)
     }
 
-    /// For each label, whether a way from it leads around the grid or through one of these layers.
+    /// For each label, true if a way from it leads around the grid or through one of these layers.
     fn leads_out(&self, labels: &Labels, through: &[usize]) -> Vec<bool> {
         let mut is_out = vec![false; labels.iter().flatten().max().unwrap_or(&0) + 1];
         for (layer, plane) in labels.iter().enumerate() {

@@ -115,7 +115,7 @@ impl Record {
     }
 }
 
-/// Prints a table of the steps, the tests that did not run or failed, and one line of totals. Returns whether nothing failed.
+/// Prints a table of the steps, the tests that did not run or failed, and one line of totals. Returns true if nothing failed.
 pub fn summarise(records: &[Record]) -> bool {
     println!(
         "\n{:<10}{:>8}{:>8}{:>9}{:>9}",

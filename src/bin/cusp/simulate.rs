@@ -24,7 +24,7 @@ pub struct Simulating {
     /// All models that it prints, in their order: 3MF, OBJ or STL. Or one job file of `cusp plate`
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
-    /// Print file in any format that `cusp inspect` reads, by whichever program
+    /// Print file in any format that `cusp inspect` reads, from any program
     #[arg(value_name = "PRINTFILE")]
     print: PathBuf,
     /// Print one JSON object, with the distances of every layer

@@ -157,7 +157,7 @@ impl<'a> Words<'a> {
         self.is_run_on = self.skip_rest();
     }
 
-    /// Skips words to the end of their line, or to what may follow a name or a facet; returns whether that came first.
+    /// Skips words to the end of their line, or to what may follow a name or a facet; returns true if that came first.
     fn skip_rest(&mut self) -> bool {
         self.skip_free_text(|word, after| {
             let next = split_word(after).0;
@@ -177,7 +177,7 @@ impl<'a> Words<'a> {
         }
     }
 
-    /// Skips words until `is_end` holds for one and the rest of its line, and returns whether it did before the line ended.
+    /// Skips words until `is_end` holds for one and the rest of its line, and returns true if it did before the line ended.
     fn skip_free_text(&mut self, is_end: impl Fn(&[u8], &[u8]) -> bool) -> bool {
         loop {
             self.rest = trim_blanks(self.rest);
