@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
 import { acceptCompatible } from "./adapters.js";
 
-/** A GPU with adapters of some levels. */
+/** Mock GPU whose adapters have the given feature levels. */
 function fake(...levels: string[]): { asked: unknown[]; gpu: Parameters<typeof acceptCompatible>[0] } {
   const asked: unknown[] = [];
   const requestAdapter = async (options: { featureLevel?: string } = {}): Promise<GPUAdapter | null> => {

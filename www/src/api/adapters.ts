@@ -1,13 +1,13 @@
-/** Which WebGPU adapters the core is offered. */
+/** WebGPU adapters that the core may use. */
 
 type Level = "core" | "compatibility";
 
-/** What TypeScript's library does not know of yet. */
+/** `requestAdapter` with the feature level, which TypeScript's library lacks. */
 type Request = (options?: GPURequestAdapterOptions & { featureLevel?: Level }) => Promise<GPUAdapter | null>;
 
 /**
- * Offers adapters of WebGPU's compatibility mode where there is none that can do all of it. The core's GPU library asks for the
- * latter alone; what the core needs, it finds out from the device.
+ * Falls back to an adapter of WebGPU's compatibility mode if no core adapter exists. The core's GPU library requests core adapters only; it
+ * learns the actual limits from the device.
  */
 export function acceptCompatible(gpu: { requestAdapter: Request }): void {
   const request: Request = gpu.requestAdapter.bind(gpu);

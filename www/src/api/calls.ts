@@ -1,8 +1,8 @@
 /**
- * Calls to one worker after another, presented as one.
+ * Serialises calls to a worker, and replaces the worker after a cancel or a crash.
  *
- * WebAssembly cannot be interrupted, so cancelling terminates the worker, and the next call starts another. What a worker holds
- * is up to the client of these calls, which restores what it needs in a fresh one.
+ * WebAssembly cannot be interrupted, so cancelling terminates the worker, and the next call starts another. The client restores the state
+ * that a fresh worker needs.
  */
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
 import { told, untold } from "./told.js";
@@ -10,7 +10,7 @@ import type { OnProgress, Remote } from "./wire.js";
 
 export type { Remote };
 
-/** What a {@link Client} needs of a worker; tests pass a fake. */
+/** Worker as a {@link Client} uses it; tests pass a fake. */
 export interface WorkerHandle {
   remote: Remote;
   /** Ends the worker at once, whatever it is doing. */
@@ -26,13 +26,13 @@ export interface Watch {
   onProgress?: OnProgress | undefined;
 }
 
-/** For calls whose progress nobody wants to know. */
+/** Ignores progress. */
 export const silent: OnProgress = told(() => undefined);
 
-/** Holds the module, which all clients share, from when the first worker begins to compile it. */
+/** The compiled module, shared by all clients from the moment the first worker starts to compile it. */
 export interface Compiled {
   module: Promise<WebAssembly.Module> | null;
-  /** Where the first worker fetches it. */
+  /** URL from which the first worker fetches the module. */
   readonly address: string;
 }
 
@@ -43,25 +43,25 @@ export interface Life<Held> {
   /** Settles as `answer` does, but rejects when the worker is terminated, so that no call waits for ever. */
   within<T>(answer: Promise<T>): Promise<T>;
   end(reason: unknown): void;
-  /** What the client knows of what the worker holds. */
+  /** State that the client believes the worker to hold. */
   readonly held: Held;
 }
 
-/** Thrown by a task to run again in a fresh worker. */
+/** Thrown by a task that must run again in a fresh worker. */
 const OUTGROWN = Symbol("outgrown");
 
-/** Memory that is not worth a restart. */
+/** Worker memory up to this size is not worth a restart. */
 const MODEST_BYTES = 256 << 20;
 
-/** Memory that a model may take, as a multiple of its file: some files are packed. */
+/** Memory that a model may take, as a multiple of its file size; packed files need many times their size. */
 const MEMORY_OF_FILE = 64;
 
-/** Returns true if the memory of a worker, which never shrinks, is large, and many times what files of this size need. */
+/** Returns true if a worker's memory, which never shrinks, is both large and many times what files of this size need. */
 async function hasOutgrown({ handle }: Life<unknown>, file_bytes: number): Promise<boolean> {
   return (await handle.remote.memory()) > Math.max(MODEST_BYTES, MEMORY_OF_FILE * file_bytes);
 }
 
-/** Has a task run again in a fresh worker, if this one has outgrown the files that it is to hold in place of others. */
+/** Restarts the worker and the task if this worker has outgrown the files that replace its models. */
 export async function shed(life: Life<unknown>, file_bytes: number): Promise<void> {
   if (await hasOutgrown(life, file_bytes)) throw OUTGROWN;
 }
@@ -75,14 +75,17 @@ export class Calls<Held> {
   #queue: Promise<unknown> = Promise.resolve();
   #disposed = false;
 
-  /** @param empty what a fresh worker holds */
+  /** @param empty creates the state of a fresh worker */
   constructor(spawn: () => WorkerHandle, compiled: Compiled, empty: () => Held) {
     this.#spawn = spawn;
     this.#compiled = compiled;
     this.#empty = empty;
   }
 
-  /** Starts the worker before it is needed, and runs a task if there is no other once page and worker are idle. The first real call reports a failure. */
+  /**
+   * Starts the worker early, then runs `task` once the worker is ready and the page idle, unless other calls come first. The first real
+   * call reports a failure.
+   */
   async warm(task: (life: Life<Held>) => Promise<unknown>): Promise<void> {
     if (this.#disposed) return;
     const life = this.#live();
@@ -93,7 +96,7 @@ export class Calls<Held> {
     if (this.#life === life && this.#queue === queue) await this.run({}, null, task).catch(() => undefined);
   }
 
-  /** Terminates the worker once its calls are over, if its memory is large: for one whose files are needed no more. */
+  /** Terminates the worker after its pending calls if its memory is large. For a worker whose models are no longer needed. */
   async trim(): Promise<void> {
     if (this.#life === null) return;
     const rest = async (life: Life<Held>): Promise<void> => ((await hasOutgrown(life, 0)) ? this.rest() : undefined);
@@ -156,7 +159,7 @@ export class Calls<Held> {
     }
   }
 
-  /** Passes on aborts and the core's own errors. Anything else means that the core broke, so its worker is terminated. */
+  /** Passes on aborts and the core's own errors. Any other error means that the core crashed, so its worker is terminated. */
   #understand(error: unknown, life: Life<Held>, signal: AbortSignal | undefined): unknown {
     if (isAbort(error, signal)) return error;
     if (error === OUTGROWN) {
@@ -173,7 +176,7 @@ export class Calls<Held> {
   #live(): Life<Held> {
     if (this.#life !== null) return this.#life;
     const handle = this.#spawn();
-    // Not a race with one promise: that would hold every answer, which may be large, for as long as the worker lives.
+    // Not `Promise.race` with one long-lived promise, which would retain every answer, possibly large, until the worker ends.
     const waiting = new Set<(reason: unknown) => void>();
     let ended: { reason: unknown } | null = null;
     const end = (reason: unknown): void => {
@@ -198,7 +201,7 @@ export class Calls<Held> {
         if (module !== null) return handle.remote.boot(module);
       }
       compiled.module = within(handle.remote.boot(compiled.address));
-      // The worker that waits next compiles it.
+      // If this fails, the next worker compiles the module.
       compiled.module.catch(() => (compiled.module = null));
       return compiled.module;
     };
@@ -229,12 +232,12 @@ export function untilAborted<T>(answer: Promise<T>, signal: AbortSignal | undefi
   return Promise.race([answer, aborted]);
 }
 
-/** Resolves when the page has nothing to do; where browsers do not tell, soon. */
+/** Resolves when the page is idle; in browsers without `requestIdleCallback`, shortly. */
 export const idle = (): Promise<unknown> => new Promise((resolve) => (globalThis.requestIdleCallback ?? setTimeout)(resolve));
 
 export const disposed = (): DOMException => new DOMException("the slicer was disposed of", "AbortError");
 
-/** The error for a worker that does not answer as it should. */
+/** Error for a worker that failed to start or crashed. */
 export function broke(code: "crash" | "start-failed" | "worker-failed", cause: unknown): SlicerError {
   const system = said(cause);
   return new SlicerError(code, system, { system });

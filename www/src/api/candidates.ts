@@ -1,13 +1,13 @@
-/** Candidates of an orientation search cross between workers as numbers, as `src/orientation/packed.rs` packs them: objects take ten times as long. */
+/** Orientation candidates cross between workers as packed numbers (`src/orientation/packed.rs`): objects take ten times as long. */
 import type { Candidate, Exclusion, Metrics, PackedCandidates } from "./wire.js";
 
 /** Numbers per candidate. */
 const NUMBERS = 21;
 
-/** By their numbers, from 1; 0 is for none. */
+/** Indexed by their number minus 1; 0 means not excluded. */
 const EXCLUSIONS: readonly Exclusion[] = ["too-large", "too-high", "no-plan", "overhang", "islands", "cups"];
 
-/** The candidates; null where a direction is not measured. */
+/** Unpacks candidates; null for a direction that is not measured. */
 export function unpacked(numbers: PackedCandidates): (Candidate | null)[] {
   return Array.from({ length: numbers.length / NUMBERS }, (_, place) => {
     const [x = NaN, y = NaN, z = NaN, i = NaN, j = NaN, k = NaN, real = NaN, width = NaN, depth = NaN, height = NaN, ...rest] = numbers.subarray(NUMBERS * place, NUMBERS * (place + 1));
@@ -30,7 +30,7 @@ function metricsOf(measures: readonly number[]): Candidate["metrics"] {
   return { layers, print_time_s, max_error, roughness_mm, overhang_mm2, islands, cups_mm2, support_ml, contact_mm2 };
 }
 
-/** The numbers of candidates; null stands for a direction that is not measured. */
+/** Packs candidates; null stands for a direction that is not measured. */
 export function packed(candidates: readonly (Candidate | null)[]): PackedCandidates {
   const numbers = new Float64Array(NUMBERS * candidates.length).fill(NaN);
   for (const [place, candidate] of candidates.entries()) {
@@ -47,7 +47,7 @@ const numbersOf = (metrics: Metrics): number[] => {
   return [layers, print_time_s, max_error, roughness_mm, overhang_mm2, islands, cups_mm2, support_ml, contact_mm2];
 };
 
-/** The candidates of directions that are all measured. */
+/** Unpacks candidates of directions that are all measured. */
 export function unpackedMeasured(numbers: PackedCandidates): Candidate[] {
   return unpacked(numbers).filter((candidate) => candidate !== null);
 }

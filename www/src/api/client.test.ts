@@ -9,7 +9,7 @@ import type { CuspError, OnProgress, Opened, Options, ProfiledPlates, SlicerWork
 let log: string[];
 let workers: FakeWorker[];
 
-/** A worker that can be told to hang, like a long computation, or to fail. */
+/** Fake worker that can hang, as in a long computation, or fail. */
 class FakeWorker implements WorkerHandle {
   readonly number = workers.push(this);
   terminated = false;
@@ -42,7 +42,7 @@ class FakeWorker implements WorkerHandle {
   }
 }
 
-/** Uses a client as `createSlicer()` does: calls are about the last opened model. */
+/** Uses a client as `createSlicer()` does: each call concerns the model opened last. */
 class Caller {
   readonly client: Client;
   models: Models = Promise.resolve([]);
@@ -349,7 +349,7 @@ test("a worker that has grown far beyond what a model needs is replaced before i
   await caller.open(new Blob(["a"]), watch());
   await caller.plan({ tolerance: 1 }, watch());
   worker(1).memory_bytes = GIGABYTE;
-  // The same model again needs what it took.
+  // Reloading the same model needs no more memory than before.
   await caller.plan({ tolerance: 2 }, watch());
   expect(worker(1).terminated).toBe(false);
   await caller.open(new Blob(["b"]), watch());
@@ -392,7 +392,7 @@ test("a price is that of the last good plan, also in a fresh worker", async () =
   client.rest();
   log = [];
   expect(await client.price({ currency: "EUR" }, { copies: 3, finish: "sanded" }, {})).toMatchObject({ currency: "EUR" });
-  // It needs neither the model nor the plan.
+  // A price needs neither the model nor the plan.
   expect(log.slice(-1)).toEqual([`${workers.length}: price of [{"copies":3,"resin_ml":1.5,"print_time_s":15}], sanded`]);
   expect(log.filter((call) => /plan|add/.test(call))).toEqual([]);
 });

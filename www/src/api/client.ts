@@ -1,8 +1,8 @@
 /**
- * The client of a job: brings each worker the models of a call.
+ * The client of a job: sends each call to a worker that holds the call's models.
  *
- * Each call carries its models, with the weights of their facets, as they were when it was made. The last successful plan is kept
- * with its models and options, and replayed when a fresh worker is asked for its masks.
+ * A call carries the models and facet weights that were current when it was made. The last successful plan is kept with its models and
+ * options, and replayed when a fresh worker needs it for masks.
  */
 import * as Comlink from "comlink";
 import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
@@ -11,16 +11,16 @@ import { priceItems, type Ordered } from "./price.js";
 import { told, untold } from "./told.js";
 import type { Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Written } from "./wire.js";
 
-/** How much each facet matters, 0 to 1; null: all equally. */
+/** Importance of each facet, 0 to 1; null: all equal. */
 export type Weights = Float32Array | null;
 
-/** A model as a worker is given it. Its number tells it from every other, also from another copy of the same file. */
+/** A model as sent to a worker. `id` is unique, also among copies of the same file. */
 export interface Loaded {
   readonly id: number;
   readonly name: string;
   readonly file: Blob;
   readonly reading: ReadOptions;
-  /** Memory in bytes that a search takes in each worker besides the file, as the core reports it. */
+  /** Memory in bytes that a search takes in each worker besides the file, as reported by the core. */
   readonly search_bytes: number;
   readonly weights: Weights;
 }
@@ -28,10 +28,10 @@ export interface Loaded {
 /** The models of a call, in order, once earlier calls have settled. */
 export type Models = Promise<readonly Loaded[]>;
 
-/** The model that a call is about; rejects if there is none. */
+/** The model of a call; rejects if there is none. */
 export type About = Promise<Loaded>;
 
-/** Models and what is asked for them. */
+/** Models with the options of a job. */
 export interface Job {
   readonly models: readonly Loaded[];
   readonly options: JobOptions;
@@ -45,14 +45,14 @@ export interface Planned extends Job {
 /** State of a worker: models in the order of its job, and a plan. */
 interface Held {
   models: { readonly id: number; weights: Weights }[];
-  /** The plan that the core holds; null if there is none or it is unknown. */
+  /** The plan that the core holds; null if none or unknown. */
   planned: Planned | null;
 }
 
-/** A question to the core about the model at the first place of the worker's job. */
+/** A query to the core about the first model of the worker's job. */
 type Question<T> = (remote: Remote, progress: OnProgress) => T | Promise<T>;
 
-/** The place of a model that is alone. */
+/** Index of the model in a worker that holds only one. */
 export const ALONE = 0;
 
 export class Client {
@@ -61,19 +61,19 @@ export class Client {
   readonly #help: Help;
   #planned: Planned | null = null;
 
-  /** @param helpers so many workers encode layers of its print files: `help` has one of them do so */
+  /** @param helpers number of workers that may encode layers of its print files through `help` */
   constructor(spawn: () => WorkerHandle, compiled: Compiled, helpers = 0, help: Help = () => Promise.resolve(null)) {
     this.#helpers = helpers;
     this.#help = help;
     this.#calls = new Calls(spawn, compiled, () => ({ models: [], planned: null }));
   }
 
-  /** Starts the worker before it is needed, and has it compile what a plan needs. The first real call reports a failure. */
+  /** Starts the worker early and has it compile the code of a plan. The first real call reports a failure. */
   warm(): void {
     this.#calls.warm(async ({ handle }) => handle.remote.rehearse()).catch(() => undefined);
   }
 
-  /** Adds a model to others once its file has arrived, or with `null` puts it in their place. On failure or abort, those stay. */
+  /** Adds a model after `others`, or with `null` replaces all, once its file has arrived. On failure or abort, the previous models stay. */
   add(others: Models | null, id: number, file: Promise<Blob>, reading: ReadOptions, watch: Watch, wantsPositions = false): Promise<Opened> {
     return this.#calls.run(watch, Promise.all([others, file]), async (life, [others, file], progress) => {
       const { handle, held } = life;
@@ -81,7 +81,7 @@ export class Client {
       else if (held.models.length > 0) await shed(life, file.size);
       const opened = await handle.remote.add(file, reading, progress, wantsPositions);
       held.planned = null;
-      // A model that cannot be read leaves the others.
+      // If the new model cannot be read, the others stay.
       if (others === null) for (const _ of held.models.splice(0)) await handle.remote.remove(0);
       held.models.push({ id, weights: null });
       return opened;
@@ -144,7 +144,7 @@ export class Client {
     });
   }
 
-  /** Encodes a group of layers for another worker, whose plan it does not know. */
+  /** Encodes a group of layers on behalf of another worker; needs no plan. */
   encodeGroup(format: Format, canvas: Uint32Array, runs: Uint32Array): Promise<Uint8Array> {
     return this.#calls.run({}, null, async (life) => life.handle.remote.encodeGroup(format, canvas, runs));
   }
@@ -157,7 +157,7 @@ export class Client {
     });
   }
 
-  /** The same about one model, in a worker that holds no other. */
+  /** Runs such a query about one model, in a worker that holds only that model. */
   ask<T>(about: About, watch: Watch, question: Question<T>): Promise<T> {
     const alone = about.then((model) => [model]);
     return this.asks(alone, watch, (remote, _, progress) => question(remote, progress));
@@ -168,7 +168,7 @@ export class Client {
     return this.#calls.run(watch, null, async (life, _, progress) => life.handle.remote.calibrateLayers(options, progress));
   }
 
-  /** What the last good plan costs. */
+  /** Price of the last good plan. */
   price(prices: Prices, { copies, finish }: Ordered, watch: Watch): Promise<Price> {
     return this.#calls.run(watch, null, async (life) => {
       if (this.#planned === null) throw new SlicerError("no-plan", "plan the layers first");
@@ -181,12 +181,12 @@ export class Client {
     return this.#calls.run({}, null, (life) => Promise.resolve(life.handle.remote.printers()));
   }
 
-  /** Gives memory back, once running calls are over, if there is much: no model is needed any more. */
+  /** Frees a large memory after pending calls, once no model is needed any more. */
   trim(): void {
     void this.#calls.trim();
   }
 
-  /** Terminates the worker. The next call starts another and restores the models, weights and plan that it needs. */
+  /** Terminates the worker. The next call starts another and restores the models, weights and plan. */
   rest(): void {
     this.#calls.rest();
   }
@@ -198,14 +198,14 @@ export class Client {
 
   async #plan(life: Life<Held>, { models, options }: Job, progress: OnProgress): Promise<ProfiledPlates> {
     await this.#bring(life, models);
-    // Until this succeeds, the core's plan is unknown.
+    // The core's plan is unknown until this succeeds.
     life.held.planned = null;
     const plan = await life.handle.remote.plan(options, progress);
     life.held.planned = this.#planned = { models, options, report: plan.report };
     return plan;
   }
 
-  /** Removes models that are not among these, adds those that are missing, and sets weights where they differ. */
+  /** Removes models that are not listed, adds missing ones, and sets weights where they differ. */
   async #bring(life: Life<Held>, models: readonly Loaded[]): Promise<void> {
     const { remote } = life.handle;
     const { held } = life;
@@ -243,7 +243,7 @@ export class Client {
     return planned;
   }
 
-  /** Plans a job, unless the last plan is for it; without one, the last plan serves. */
+  /** Plans a job unless the last plan was for it. Without a job, restores the last plan. */
   async #planFor(life: Life<Held>, job: Job | null, progress: OnProgress): Promise<Planned> {
     if (job !== null && !this.#isPlanned(job)) await this.#plan(life, job, progress);
     return this.#restorePlan(life, progress);
@@ -256,7 +256,7 @@ export class Client {
   }
 }
 
-/** The place of a model. Throws `plate-no-model` if it is none of them. */
+/** Index of a model. Throws `plate-no-model` if there is none with this id. */
 export function placeOf(models: readonly Pick<Loaded, "id">[], id: number): number {
   const place = models.findIndex((model) => model.id === id);
   if (place >= 0) return place;

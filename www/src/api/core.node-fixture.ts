@@ -1,4 +1,4 @@
-/** The core itself, for tests without a worker. */
+/** The core in Node, for tests without a worker. */
 import { readFile } from "node:fs/promises";
 import { initSync, Job } from "../../pkg/cusp_slicer.js";
 import type { Options, Report } from "./wire.js";

@@ -1,21 +1,21 @@
-/** The layers of a print file, encoded by this worker and by those that help it. */
+/** Encodes the layers of a print file in this worker and its helpers. */
 import { encode_group, type LayerGroups } from "../../pkg/cusp_slicer.js";
 import type { Help, OnProgress } from "./wire.js";
 
-/** Fewer groups are encoded before a helper has started. */
+/** With fewer groups, encoding ends before a helper has started. */
 const FEWEST_GROUPS = 6;
 
 /** Groups in stock per helper: while it encodes one, the next one is on its way. */
 const STOCK = 2;
 
-/** Returns true if help is worth its while. */
+/** Returns true if the file is long enough for helpers to save time. */
 export function isLong(groups: LayerGroups): boolean {
   return groups.left() >= FEWEST_GROUPS;
 }
 
 /**
- * The encoded groups, in order. What the helpers do not encode, this worker does: also what they have not sent back when all else is
- * done, as one that has just started may take longer than the rest of the file.
+ * Encodes all groups, in order. This worker takes the groups that find no free helper. At the end it also encodes those still outstanding,
+ * since a helper that has just started may take longer than the rest of the file.
  */
 export async function encodeGroups(groups: LayerGroups, helpers: number, help: Help, progress: OnProgress): Promise<Uint8Array[]> {
   const format = groups.format();
@@ -37,7 +37,7 @@ export async function encodeGroups(groups: LayerGroups, helpers: number, help: H
     groups.report(progress);
     await messages();
   }
-  // From the last on: helpers have begun with the first.
+  // Last group first, because helpers started with the first.
   for (const [group, runs] of [...awaited].reverse()) {
     if (!awaited.delete(group)) continue;
     encoded[group] = encode_group(format, canvas, runs);
@@ -46,7 +46,7 @@ export async function encodeGroups(groups: LayerGroups, helpers: number, help: H
   return encoded;
 }
 
-/** Lets what other threads have posted arrive. */
+/** Yields to the event loop so that messages from other threads arrive. */
 function messages(): Promise<void> {
   const { port1, port2 } = new MessageChannel();
   return new Promise((resolve) => {

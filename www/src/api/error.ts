@@ -1,8 +1,8 @@
-/** Failures as data: a code for programs, a sentence for people, and typed details. */
+/** Errors as data: a code for programs, a sentence for people, and typed details. */
 import type { CoreError } from "../../pkg/cusp_slicer.js";
 import { visible } from "./visible.js";
 
-/** Errors raised on this side of the worker, with their details. As with the core's, a published code keeps its meaning. */
+/** Errors raised outside the core, with their details. A published code keeps its meaning. */
 interface OwnDetails {
   /** An attribute or property of the element is invalid; `known` lists the valid names, if there is a list. */
   "bad-attribute": { attribute: string; value: unknown; known?: readonly string[] };
@@ -10,25 +10,25 @@ interface OwnDetails {
   "no-model": null;
   /** The bytes of the file could not be read. */
   "file-unreadable": null;
-  /** A model cannot be read from a value of this kind. */
+  /** A value of this type is not a source of a model. */
   "bad-source": { given: string };
-  /** A list of a source is of no whole number of facets or vertices. */
+  /** The length of `positions` or `indices` is not a multiple of `multiple_of`. */
   "bad-facets": { list: "positions" | "indices"; numbers: number; multiple_of: number };
-  /** A source has an index of no vertex. */
+  /** An index of a source refers to no vertex. */
   "bad-index": { place: number; index: number; vertices: number };
-  /** An argument must be a whole number, counted from 0. */
+  /** An argument is not a whole number from 0. */
   "bad-number": { argument: string; value: unknown };
-  /** What was dropped is a link to a file, not the file. */
+  /** A link to a file was dropped, not the file itself. */
   "dropped-link": null;
-  /** What was dropped is a folder without any model. */
+  /** A folder without any model was dropped. */
   "folder-without-model": null;
-  /** The file that should describe a printer holds no JSON object. */
+  /** The printer description is not a JSON object. */
   "printer-not-json": SystemDetail;
-  /** That file is longer than any description of a printer. */
+  /** The printer description is longer than `most_bytes`. */
   "printer-too-long": { bytes: number; most_bytes: number };
   /** The model's URL returned an HTTP error, or could not be reached. */
   "fetch-failed": { status: number } | SystemDetail;
-  /** The worker could not be started: its script is missing or cannot be reached, or the page's policy or the browser refuses it. */
+  /** The worker could not be started: its script is missing or unreachable, or blocked by the page's policy or the browser. */
   "worker-failed": SystemDetail;
   /** The WebAssembly module could not be started. */
   "start-failed": SystemDetail;
@@ -47,7 +47,7 @@ interface SystemDetail {
 
 type DetailOf<E> = E extends { detail: infer Detail } ? (Detail extends undefined ? null : Detail) : null;
 
-/** Every code with its details. Lengths are in mm. The core's are generated from its own types. */
+/** Every code with its details. Lengths are in mm. Those of the core are generated from its types. */
 export type ErrorDetails = { [E in CoreError as E["code"]]: DetailOf<E> } & OwnDetails;
 
 export type ErrorCode = keyof ErrorDetails;
@@ -61,8 +61,8 @@ interface SlicerErrorOf<Code extends ErrorCode> extends Error {
 }
 
 /**
- * What every call rejects with, except on an abort, which rejects with the signal's reason. A union over all codes: once
- * `error.code === "infeasible"` is checked, TypeScript knows `error.detail.least_tolerance`.
+ * Error with which every call rejects, except on an abort, which rejects with the signal's reason. A union over all codes: after
+ * `error.code === "infeasible"`, TypeScript knows `error.detail.least_tolerance`.
  */
 export type SlicerError = { [Code in ErrorCode]: SlicerErrorOf<Code> }[ErrorCode];
 
@@ -93,7 +93,7 @@ export function isAbort(error: unknown, signal?: AbortSignal): boolean {
   return error instanceof DOMException && (error.name === "AbortError" || error.name === "TimeoutError");
 }
 
-/** Converts an error from the core, which crosses to this side as a plain object; null for any other value. */
+/** Converts an error that crossed from the core as a plain object; null for any other value. */
 export function ofCore(value: unknown): SlicerError | null {
   if (value instanceof SlicerError) return value;
   if (typeof value !== "object" || value === null || value instanceof Error) return null;
@@ -113,7 +113,7 @@ export function asSlicerError(error: unknown): SlicerError {
 /** The message of any thrown value. */
 export const said = (error: unknown): string => (error instanceof Error ? error.message : String(error));
 
-/** Throws `bad-number` unless an argument is a whole number, counted from 0: to the core 1.5 would be 1, and NaN 0. */
+/** Throws `bad-number` unless an argument is a whole number from 0: the core would read 1.5 as 1, and NaN as 0. */
 export function checkWhole(argument: string, value: unknown): void {
   if (Number.isInteger(value) && (value as number) >= 0) return;
   throw new SlicerError("bad-number", `${argument} must be a whole number from 0, not ${String(value)}`, { argument, value });

@@ -1,14 +1,14 @@
 /**
- * A fake worker for tests: it keeps the texts of its files, and plans at once. A single copy is one plate, several are two, with each
- * model's copies on both. The supports of a model are its place.
+ * Fake worker for tests: keeps the texts of its files and plans at once. One copy makes one plate; several make two plates, each with
+ * copies of every model. The supports of a model hold its index.
  */
 import type { WorkerHandle } from "./calls.js";
 import type { JobOptions, MeshInfo, ModelPrintability, Placement, Preview, Price, Report, SlicerWorker } from "./wire.js";
 
-/** The work of a call, which may hang or throw. */
+/** Hook of a call, which may hang or throw. */
 export type Work = (what: string) => Promise<void>;
 
-/** @param work hears of each call */
+/** @param work called with a description of each call */
 export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
   const models: { file: string; weights: string }[] = [];
   let planned: JobOptions = {};

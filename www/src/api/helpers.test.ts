@@ -5,7 +5,7 @@ import { Helpers } from "./helpers.js";
 beforeEach(() => void vi.useFakeTimers());
 afterEach(() => void vi.useRealTimers());
 
-/** Clients that answer when they are told to. */
+/** Clients that answer on request of the test. */
 function fakes() {
   const log: string[] = [];
   const waiting: { answer: (bytes: Uint8Array) => void; fail: (error: Error) => void }[] = [];

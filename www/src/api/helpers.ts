@@ -1,4 +1,4 @@
-/** Workers that encode layers of print files for the one that has the plan. They hold no model, and end when they have long been idle. */
+/** Helper workers: encode layers of print files for the worker that holds the plan. They hold no model, and end when idle for long. */
 import type { Client } from "./client.js";
 import type { Format } from "./wire.js";
 
@@ -11,13 +11,16 @@ export class Helpers {
   readonly #clients: { client: Client; busy: number }[] = [];
   #timer: ReturnType<typeof setTimeout> | undefined;
 
-  /** @param start creates a client, whose worker starts when first needed; there are at most so many */
+  /**
+   * @param start creates a client, whose worker starts when first needed
+   * @param most maximum number of helpers
+   */
   constructor(start: () => Client, most: number) {
     this.#most = most;
     this.#start = start;
   }
 
-  /** A group of layers, encoded by the least busy helper; null if it failed. */
+  /** Encodes a group of layers in the least busy helper; null on failure. */
   async encode(format: Format, canvas: Uint32Array, runs: Uint32Array): Promise<Uint8Array | null> {
     clearTimeout(this.#timer);
     const helper = this.#leastBusy();
@@ -25,7 +28,7 @@ export class Helpers {
     try {
       return await helper.client.encodeGroup(format, canvas, runs);
     } catch {
-      // Whoever asked encodes it, and says what is wrong with it.
+      // The caller then encodes the group itself and reports any error.
       return null;
     } finally {
       helper.busy -= 1;

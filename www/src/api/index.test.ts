@@ -3,7 +3,7 @@ import { fakeReport, fakeWorkers } from "./fake-worker.js";
 import { createSlicer, SCHEMA, type Slicer } from "./index.js";
 import type { Options } from "./wire.js";
 
-/** A slicer over fake workers, whose memory is that of each, and a log of their calls. */
+/** A slicer over fake workers of this much memory each, and a log of their calls. */
 function faked(memory_bytes = 0): { slicer: Slicer; log: string[] } {
   const log: string[] = [];
   const spawn = fakeWorkers(log, (_, work) => ({
@@ -120,7 +120,7 @@ test("a print file uses the weights of its plan, even from a fresh worker", asyn
   await slicer.plan({ tolerance: 1 });
   await slicer.setWeights(null);
   slicer.rest();
-  // The print file is of the last plan, which is replayed with its own weights.
+  // The print file is that of the last plan, which is replayed with its own weights.
   await slicer.export();
   await slicer.plan({ tolerance: 2 });
   const after = log.slice(log.indexOf("1: ended"));
@@ -211,7 +211,7 @@ test("calls keep their order without await: those after a load use its model", a
   void slicer.plan({ tolerance: 1 });
   void slicer.positions();
   const file = slicer.export({ tolerance: 2 });
-  // Called after that export, which it must not change.
+  // Made after the export, whose plan it must not change.
   void slicer.plan({ tolerance: 3 });
   const mask = slicer.mask(0);
   void slicer.load(new Blob(["c"]));

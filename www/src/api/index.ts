@@ -1,6 +1,6 @@
 /**
- * The headless slicer: models in, plans, masks and print files out. It runs in workers of its own, sends
- * nothing anywhere, and needs neither WebGPU nor cross-origin isolation.
+ * The headless slicer: models in, plans, masks and print files out. It runs in its own workers, sends nothing anywhere, and needs neither
+ * WebGPU nor cross-origin isolation.
  *
  *     const slicer = createSlicer();
  *     await slicer.load(file);
@@ -15,10 +15,10 @@
  *     const { plates } = await slicer.plan({ printer: "saturn-3-ultra" });
  *     const { name, blob } = await slicer.export(undefined, { plate: 0 });
  *
- * Lengths are in mm, times in s. A call takes its place in the queue when it is made: it is about the models that were loaded, added,
- * changed and removed before it, with the weights set before it, awaited or not. Every call rejects with a `SlicerError`, or with the
- * signal's reason if it was aborted; the previous models and plan stay. Without a browser, as in server-side rendering, a slicer
- * can be created, but its calls reject with `no-browser`.
+ * Lengths are in mm, times in s. Calls are queued in the order in which they are made. A call applies to the models and weights that
+ * earlier calls have loaded, added, changed, removed or set, whether or not those calls were awaited. Every call rejects with a
+ * `SlicerError`, or with the signal's reason if it was aborted; the previous models and plan stay. Without a browser, as in server-side
+ * rendering, a slicer can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
 import type { Compiled, WorkerHandle, Watch } from "./calls.js";
@@ -44,35 +44,35 @@ export type * from "./wire.js";
 
 /** A model as read from its file. */
 export interface Model extends Versioned {
-  /** Tells it from the others for as long as the slicer lives. */
+  /** Identifies the model for the lifetime of the slicer. */
   id: number;
   name: string;
-  /** The file that it was read from, for a page that sends a model along with its plan. */
+  /** The source file, for a page that uploads a model with its plan. */
   file: Blob;
-  /** The choices with which it was read. */
+  /** The reading options used. */
   reading: ReadOptions;
   info: MeshInfo;
-  /** Options that differ from those of the job, and its number of copies. */
+  /** Options that override those of the job, and the number of copies. */
   own: ModelOptions;
 }
 
-/** Changes to a model's own options; `undefined` restores that of the job. */
+/** Changes to a model's own options; `undefined` reverts to the option of the job. */
 export type ModelChange = { [Name in keyof ModelOptions]?: ModelOptions[Name] | undefined };
 
 /**
- * A plan. Of each plate, `report.backend` says what cast the rays, `cpu` or `gpu`, `report.adapter` which GPU, and `report.gpu_method`
- * how. `report` and `profile` are those of the first plate.
+ * A plan. `report` and `profile` are those of the first plate. In each plate's report, `backend` (`cpu` or `gpu`), `adapter` and
+ * `gpu_method` say how the rays were cast.
  */
 export interface Plan extends Versioned, Profiled<Report>, Shells {
-  /** One for each plate. Its report has its models, where each copy stands, and each copy's share of time and resin. */
+  /** One per plate. Its report lists its models, the placement of each copy, and each copy's share of time and resin. */
   plates: Profiled<Report>[];
-  /** Print time of all plates, one after the other. */
+  /** Print time of all plates in succession. */
   print_time_s: number;
-  /** Volume of resin in all copies. */
+  /** Resin volume of all copies. */
   resin_ml: number;
 }
 
-/** A plan from the facets alone, for live updates while a model is being turned. */
+/** A plan from the facets alone, for live updates while a model is being rotated. */
 export interface PreviewedPlan extends Versioned, Profiled<Preview> {}
 
 /** Findings on a plate, model by model, and the verdict. */
@@ -82,92 +82,95 @@ export interface Check extends Versioned, PlatePrintability {}
 export interface OrientationReport extends Versioned, SearchResult {}
 
 /**
- * The print file of two towers side by side: both have ten layers of 0.05 mm, and one goes on with ten of 0.1 mm. Printed, they
- * are 0.5 and 1.5 mm high if the printer takes a thickness for each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one for all.
+ * Print file of two test towers: both have ten layers of 0.05 mm, and one has ten more of 0.1 mm. They print 0.5 and 1.5 mm high on a
+ * printer that obeys the thickness of each layer, and 0.5 and 1.0 mm or 1.0 and 2.0 mm on one that applies a single thickness.
  */
 export interface TestTowers extends PrintFile {
-  /** The report of its plan. */
+  /** Report of the towers' plan. */
   report: Report;
 }
 
-/** A model that was read, with its positions if they were asked for. */
+/** A model just read, with its positions if requested. */
 export interface Loaded extends Model {
-  /** The corners of all facets, as `positions()` gives them. */
+  /** Corners of all facets, as returned by `positions()`. */
   positions?: Float32Array;
 }
 
 export interface LoadCall extends Watch {
-  /** The model's name; that of the source if absent. */
+  /** The model's name; by default that of the source. */
   name?: string;
-  /** Choices that the file leaves: a plate of a 3MF project, surfaces as models, curved caps. */
+  /** Reading options: the plate of a 3MF project, surfaces as models, curved caps. */
   reading?: ReadOptions;
-  /** True if the answer has {@link Loaded.positions}: sooner than by a call of `positions()`. */
+  /** If true, the result has {@link Loaded.positions}, sooner than by a call of `positions()`. */
   positions?: boolean;
 }
 
-/** A call about a model. */
+/** Options of a call about a model. */
 export interface ModelCall extends Watch {
-  /** The model, by its `id`; the first if absent. */
+  /** `id` of the model; by default the first. */
   model?: number | undefined;
 }
 
-/** A call about a plate of the last plan. */
+/** Options of a call about a plate of the last plan. */
 export interface PlateCall extends Watch {
-  /** The plate, counted from 0; the first if absent. */
+  /** Index of the plate, from 0, the default. */
   plate?: number | undefined;
 }
 
-/** Rules by which copies are arranged, or their places. */
+/** Rules for arranging copies, or explicit placements. */
 export interface PlanCall extends Watch {
   arranging?: Arranging | undefined;
-  /** Place of each copy: `model` is the index of its model in `models()`, from 0. If empty, copies are arranged; a single one stands in the middle. */
+  /**
+   * Placement of each copy: `model` is the model's index in `models()`, from 0. If empty, copies are arranged automatically; a single copy
+   * stands in the middle.
+   */
   placements?: readonly Placement[] | undefined;
 }
 
 export interface OrientCall extends Orienting, ModelCall {}
 
 export interface Slicer {
-  /** Reads a model, 3MF, OBJ or STL, in place of all others. */
+  /** Reads a model (3MF, OBJ or STL), which replaces all others. */
   load(source: Source, call?: LoadCall): Promise<Loaded>;
-  /** Reads a model and adds it after the others. */
+  /** Reads a model and appends it to the others. */
   add(source: Source, own?: ModelChange, call?: LoadCall): Promise<Loaded>;
-  /** Changes some of what a model has of its own. Rejects with `plate-no-model` if there is no such model. */
+  /** Changes some of a model's own options. Rejects with `plate-no-model` if the model does not exist. */
   update(id: number, own: ModelChange): Promise<Model>;
-  /** Rejects with `plate-no-model` if there is no such model. */
+  /** Removes a model. Rejects with `plate-no-model` if it does not exist. */
   remove(id: number): Promise<void>;
-  /** The models in their order. */
+  /** All models, in order. */
   models(): Promise<readonly Model[]>;
-  /** Places of copies when they are arranged: on the fewest plates, then lowest. */
+  /** Arranges copies on as few plates as possible, then for the lowest height, and returns their placements. */
   arrange(options?: Options, arranging?: Arranging, call?: Watch): Promise<Placement[]>;
   /** Faults of placements: copies that extend beyond their plate, and copies that overlap. */
   problems(options: Options, placements: readonly Placement[], call?: Watch): Promise<ArrangeError[]>;
   /** Plans the layers of all plates. A change of options recomputes only what depends on it. */
   plan(options?: Options, call?: PlanCall): Promise<Plan>;
-  /** The mask of a layer of the last plan, counted from 0. */
+  /** Mask of a layer of the last plan, counted from 0. */
   mask(layer: number, call?: PlateCall): Promise<Mask>;
   /**
-   * Findings on a plate of the last plan, with their places in its masks and layers. `limits` are what a shop
-   * accepts; those left out have the defaults.
+   * Findings on a plate of the last plan, with their places in masks and layers. `limits` are the acceptance limits of a shop; omitted ones
+   * have the defaults.
    */
   check(limits?: Limits, call?: PlateCall): Promise<Check>;
-  /** The best plans of a plate for `points` tolerances (40 by default), from the tightest feasible to the loosest that saves a layer. */
+  /** Best plans of a plate for `points` tolerances (40 by default), from the tightest feasible to the loosest that still saves a layer. */
   tradeoff(options?: Options, points?: number, call?: PlanCall & PlateCall): Promise<Tradeoff & Versioned>;
-  /** The plans of all planners side by side, for a plate. */
+  /** Plans of all planners for a plate, side by side. */
   compare(options?: Options, call?: PlanCall & PlateCall): Promise<Comparison & Versioned>;
   /**
-   * Searches for the best orientations of a model, weighing layers or print time against surface quality. It runs in workers of its
-   * own, so that no other call waits for it; the result does not depend on their number. To plan for a candidate, set
-   * `options.rotation` to its `rotation` and, if the options have a `height_mm`, set that to its `size_mm[2]`.
+   * Searches for the best orientations of a model, weighing layers or print time against surface quality. It runs in separate workers, so
+   * no other call waits for it; the result does not depend on the number of workers. To plan for a candidate, set `options.rotation` to its
+   * `rotation` and, if the options have a `height_mm`, set that to its `size_mm[2]`.
    */
   orient(options?: Options, search?: SearchOptions, call?: OrientCall): Promise<OrientationReport>;
   /**
-   * Measures one direction as a search does, so that any pose can be compared with its candidates. `direction` is the unit vector
-   * that points up from the plate, in the file's frame. The candidate has no `energy`, which is relative to others.
+   * Measures one direction as a search does, to compare any pose with its candidates. `direction` is the unit vector, in the file's frame,
+   * that points up from the plate. The candidate has no `energy`, which is relative to other candidates.
    */
   measure(options: Options, direction: Readonly<Candidate["direction"]>, call?: ModelCall): Promise<Candidate>;
-  /** The print file of a plate of the last plan. With options, that of a plan for those, made first unless it is the last one. */
+  /** Print file of a plate of the last plan. If `options` are given and the last plan is not for them, plans first. */
   export(options?: Options, call?: PlanCall & PlateCall): Promise<PrintFile>;
-  /** The print files of all plates of the last plan, each made when it is read. */
+  /** Print files of all plates of the last plan, each made when read. */
   exportAll(call?: Watch): ReadableStream<PrintFile>;
   /**
    * The same print file as {@link export}, as a stream of its chunks. The core does not wait for a slow reader:
@@ -175,43 +178,43 @@ export interface Slicer {
    */
   exportStream(options?: Options, call?: PlanCall & PlateCall): ReadableStream<Uint8Array>;
   /**
-   * A binary STL of a plug for each drain hole of a model in the last plan, upright in a row on the plate, to print and glue in: what
-   * `cusp slice --plugs` writes. Without holes it has no facets.
+   * Binary STL with a plug for each drain hole of a model in the last plan, to print and glue in. The plugs stand upright in a row on the
+   * plate, as `cusp slice --plugs` writes them. Without drain holes, it has no facets.
    */
   plugs(call?: ModelCall): Promise<Uint8Array>;
-  /** The corners of all facets of a model in mm, nine numbers per facet, in the file's frame. */
+  /** Corners of all facets of a model in mm, nine numbers per facet, in the file's frame. */
   positions(call?: ModelCall): Promise<Float32Array>;
   /**
-   * A plan of a model from the facets alone, in milliseconds. It shares a worker with `positions()`, `saliency()`, `calibrateLayers()`
-   * and the calls for weight files, and does not wait for other plans.
+   * Plans a model from its facets alone, within milliseconds. It shares a worker with `positions()`, `saliency()`, `calibrateLayers()` and
+   * the calls for weight files, and does not wait for other plans.
    */
   preview(options?: Options, call?: ModelCall): Promise<PreviewedPlan>;
-  /** How much each facet stands out, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
+  /** Saliency of each facet, 0 to 1, in the order of `positions()`. Takes about a second for 80,000 facets. */
   saliency(call?: ModelCall): Promise<Float32Array>;
   /**
-   * Sets how much each facet of a model matters to all later calls, 0 to 1 in the order of `positions()`; null: all equally. The
-   * tolerance holds where the weight is 1 and is looser elsewhere, never more than `options.weight_min` allows. Weights are
-   * copied, and belong to the model. Resolves once the core has accepted them; if it refuses, the previous weights stay.
+   * Sets the importance of each facet of a model for all later calls, 0 to 1 in the order of `positions()`; null: all equal. The tolerance
+   * holds where the weight is 1 and is looser elsewhere, at most as far as `options.weight_min` allows. The weights are copied. Resolves
+   * once the core has accepted them; if it refuses, the previous weights stay.
    */
   setWeights(weights: Float32Array | null, call?: ModelCall): Promise<void>;
-  /** A small file of these weights, bound to the model. */
+  /** Small file of these weights, bound to the model. */
   weightsFile(weights: Float32Array, call?: ModelCall): Promise<Blob>;
-  /** Reads the weights of such a file, which must belong to the model; `setWeights()` applies them. */
+  /** Reads the weights from such a file, which must belong to the model; `setWeights()` applies them. */
   readWeights(file: Source, call?: ModelCall): Promise<Float32Array>;
   /**
-   * The print file of test towers, which tell whether a printer prints layers of several thicknesses. It needs no model, and leaves
-   * the job and its plan alone. Of the options, printer, screen, format and resin count. Rejects with `uniform-only` if the
-   * format has one thickness for all layers.
+   * Print file of test towers, which show whether a printer obeys the thickness of each layer. It needs no model, and changes neither the
+   * job nor its plan. Uses only the options for printer, screen, format and resin. Rejects with `uniform-only` if the format has one
+   * thickness for all layers.
    */
   calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
   /**
-   * Price of the last plan by the prices of a shop: docs/price.md defines the formula. Copies on plates have their shares of time. The
-   * same code on a server computes the same (`cusp verify --prices`).
+   * Price of the last plan for the prices of a shop, by the formula in docs/price.md. Each copy counts with its share of its plate's time.
+   * `cusp verify --prices` computes the same on a server.
    */
   price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
-  /** Starts the worker before it is needed, and has the browser compile what a plan needs once the page is idle. */
+  /** Starts the worker early, and has the browser compile the code of a plan once the page is idle. */
   warm(): void;
   /** Terminates the workers: running calls reject with an `AbortError`. The next call restores the models and the plan. */
   rest(): void;
@@ -222,22 +225,22 @@ export interface Slicer {
 export interface Setup {
   /** @internal Starts a worker; tests pass a fake. */
   spawn?: () => WorkerHandle;
-  /** The most workers that an orientation search or a print file may use; by default the number of cores. */
+  /** Maximum number of workers for an orientation search or a print file; by default the number of cores. */
   workers?: number;
   /**
-   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page, for builds that leave them elsewhere than a
-   * bundler would. A function is asked whenever a worker starts.
+   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page, for builds that place them where no
+   * bundler would. A function is called each time a worker starts.
    */
   assets?: Assets | (() => Assets);
 }
 
-/** More helpers would wait for the worker that reads the masks of a print file. */
+/** More helpers would only wait for the worker that produces the masks. */
 const MOST_HELPERS = 3;
 
-/** The number of workers if the browser does not report its cores. */
+/** Number of workers if the browser does not report its cores. */
 const FEW_WORKERS = 2;
 
-/** The modules of all slicers of a page, by their addresses. */
+/** Compiled modules by URL, shared by all slicers of a page. */
 const MODULES = new Map<string, Compiled["module"]>();
 
 export function createSlicer(setup: Setup = {}): Slicer {
@@ -245,7 +248,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
   if (setup.spawn === undefined && globalThis.Worker === undefined) return absentSlicer();
   const folder = typeof assets === "function" ? assets : (): Assets => assets;
   const spawn = setup.spawn ?? ((): WorkerHandle => spawnWorker(folder()));
-  // Those of fakes are none.
+  // Fakes compile nothing, so they share nothing.
   const modules = setup.spawn === undefined ? MODULES : new Map<string, Compiled["module"]>();
   const compiled: Compiled = {
     get address() {
@@ -260,17 +263,17 @@ export function createSlicer(setup: Setup = {}): Slicer {
   };
   const client = (): Client => new Client(spawn, compiled);
   const most = Math.max(0, Math.min(MOST_HELPERS, workers - 1));
-  /** Fetched with the first print file. */
+  /** Loaded with the first print file. */
   let helpers: Promise<Helpers> | null = null;
   const main = new Client(spawn, compiled, most, async (...group) => {
     helpers ??= import("./helpers.js").then(({ Helpers }) => new Helpers(client, most));
-    // What cannot be fetched leaves all layers to the worker that asked.
+    // If the helpers cannot be loaded, the worker encodes all layers itself.
     return (await helpers.catch(() => null))?.encode(...group) ?? null;
   });
-  // Previews must not wait for a plan that takes seconds: they have a worker of their own, which starts on first use.
+  // Previews run in their own worker, started on first use, so that they do not wait for a plan of seconds.
   const side = client();
   const pool = new Pool(client, workers);
-  /** The models of a call made now, resolved once earlier calls have settled. */
+  /** The models for a call made now, resolved once earlier calls have settled. */
   let models: Promise<readonly Entry[]> = Promise.resolve([]);
   let added = 0;
 
@@ -283,7 +286,7 @@ export function createSlicer(setup: Setup = {}): Slicer {
     });
   const wanted = (options: Options | undefined, call: PlanCall): Promise<Job> | null => (options === undefined ? null : job(options, call));
 
-  /** Reads a model, after the others or in their place. */
+  /** Reads a model and appends it, or lets it replace the others. */
   const read = async (isAlone: boolean, source: Source, own: ModelChange, call: LoadCall): Promise<Loaded> => {
     const { name, reading = {}, positions, ...watch } = call;
     const id = ++added;
@@ -468,21 +471,21 @@ export function createSlicer(setup: Setup = {}): Slicer {
   };
 }
 
-/** A model with what callers do not see of it. */
+/** A model with its internal fields. */
 type Entry = Held & Model;
 
-/** The part of a model that a page sees, without its weights. */
+/** The public part of a model. */
 function seen({ schema, id, name, file, reading, info, own }: Entry): Model {
   return { schema, id, name, file, reading, info, own };
 }
 
-/** The options of a model with some of them changed. */
+/** Merges changes into a model's own options. */
 function merged(before: ModelOptions, changed: ModelChange): ModelOptions {
   const all = Object.entries({ ...before, ...changed });
   return Object.fromEntries(all.filter(([, value]) => value !== undefined));
 }
 
-/** A model by its number, or the first. */
+/** A model by its id, or the first. */
 function modelOf(all: readonly Entry[], id: number | undefined): Entry {
   const model = id === undefined ? all[0] : all[placeOf(all, id)];
   if (model === undefined) throw noModel();
@@ -497,14 +500,14 @@ function leavable({ signal }: Watch): { readonly gone: AbortController; readonly
 
 const noModel = (): SlicerError => new SlicerError("no-model", "load a model first");
 
-/** The report of a plate that the core has just served. */
+/** Report of a plate that the core has just served. */
 function reportOf(reports: readonly Report[], plate: number): Report {
   const report = reports[plate];
   if (report === undefined) throw new Error(`there is no plate ${plate}`);
   return report;
 }
 
-/** The name of the only model, or of the plate. */
+/** Name of the only model, or of the plate. */
 function stemOfPlate(plate: number, reports: readonly Report[], models: readonly Held[]): string {
   const [only, ...others] = reportOf(reports, plate).models;
   const isOne = others.length === 0 && reports.length === 1;
@@ -512,7 +515,7 @@ function stemOfPlate(plate: number, reports: readonly Report[], models: readonly
   return isOne && name !== undefined ? stemOf(name) : `plate-${plate + 1}`;
 }
 
-/** The name of the printer that the options have, for the name of a file. */
+/** Name of the printer, for a file name. */
 function printerName({ printer }: Options): string {
   return (typeof printer === "object" ? printer.name : printer) || "cusp";
 }

@@ -124,7 +124,7 @@ test("refused weights do not apply to later calls", async () => {
   await expect(slicer.setWeights(Float32Array.of(2), { model: id })).rejects.toMatchObject(tooLarge);
   await slicer.plan({ tolerance: 1 });
   expect(log.at(-1)).toBe("1: plan 1 of cup*0.5");
-  // What is called before the refusal keeps its change.
+  // Calls made before the refusal keep their changes.
   const refused = slicer.setWeights(Float32Array.of(3), { model: id });
   const changed = slicer.update(id, { copies: 2 });
   await expect(refused).rejects.toMatchObject(tooLarge);

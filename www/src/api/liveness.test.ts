@@ -3,7 +3,7 @@ import { holdLock, whenEnded } from "./liveness.js";
 
 afterEach(() => void vi.unstubAllGlobals());
 
-/** Locks that one after the other holds, and the ends of those who hold one for ever. */
+/** Fake exclusive locks, and functions that end holders that never release theirs. */
 function fakeLocks() {
   const queues = new Map<string, Promise<unknown>>();
   const ends: (() => void)[] = [];

@@ -1,13 +1,13 @@
 /**
- * Tells a page when a worker has ended by itself, of which browsers tell nothing: the worker holds a lock until it ends, and the page waits
- * for it. A computation of any length disturbs nothing, since no message is answered. Where there are no locks, as without HTTPS, nothing tells.
+ * Detects that a worker has died, which browsers do not report: the worker holds a lock until it ends, and the page waits for that lock.
+ * Unlike a heartbeat, this works during a long computation. Without the Web Locks API, as without HTTPS, deaths go unnoticed.
  */
 
 interface Holding {
   lock: string;
 }
 
-/** Holds a lock for as long as this worker lives, and tells the page of it. */
+/** Holds a lock for the lifetime of this worker, and sends its name to the page. */
 export function holdLock(): void {
   const holding: Holding = { lock: `cusp-slicer ${Math.random()}` };
   const held = (): Promise<never> => {

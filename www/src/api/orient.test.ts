@@ -22,17 +22,17 @@ interface Faked {
   slicer: Slicer;
   /** `worker: call`. */
   log: string[];
-  /** The numbers of the running workers. */
+  /** Numbers of the running workers. */
   live: Set<number>;
 }
 
 interface Setup {
   workers: number;
-  /** Milliseconds that a worker takes for a call, except for `advance`. */
+  /** Milliseconds that a worker takes for each call except `advance`. */
   slowness?: (worker: number) => number;
-  /** A call that never ends, by its name. */
+  /** Name of a call that never ends. */
   hangs?: string;
-  /** A call of this worker that fails, by its name. */
+  /** A call that fails in this worker. */
   fails?: readonly [worker: number, call: string];
   /** Directions closer than this to 42 are refined. */
   within?: number;
@@ -189,7 +189,7 @@ test("the result depends neither on the number of workers nor on their speed", a
     for (const slowness of speeds) {
       const { found, log } = await searched({ workers, slowness });
       answers.push(JSON.stringify(found));
-      // The first worker is the one for plans.
+      // The first worker is for plans.
       expect(workersOf(log, "measure").size).toBe(workers);
       expect(log.filter((line) => line.startsWith("1: "))).toEqual(["1: add a"]);
     }
@@ -250,7 +250,7 @@ test.each(["measure", "refine", "advance", "add a"])("an abort during %s termina
 
 test("the worker that holds the search runs tasks only if no other worker is free", async () => {
   const { log } = await searched({ workers: 3, within: 1 });
-  // Workers 2 to 4 are the pool's, and 2 is asked first.
+  // Workers 2 to 4 are the pool's; worker 2 coordinates.
   expect(workersOf(log, "advance")).toEqual(new Set(["2"]));
   expect(workersOf(log, "measure")).toEqual(new Set(["2", "3", "4"]));
   expect(workersOf(log, "refine").size).toBe(1);

@@ -1,4 +1,4 @@
-/** The orientation search, which the core drives: one worker of the pool holds it, and all run its tasks. */
+/** The orientation search. The core drives it: one worker of the pool holds the search, and all run its tasks. */
 import { packed, unpacked, unpackedMeasured } from "./candidates.js";
 import type { Watch } from "./calls.js";
 import { ALONE, type About } from "./client.js";
@@ -14,13 +14,13 @@ export interface Found {
 }
 
 export interface OrientCall extends Watch {
-  /** Called repeatedly as directions are measured, and once all are. */
+  /** Called repeatedly as directions are measured, and at the end. */
   onCandidates?: ((found: Found) => void) | undefined;
-  /** Candidates of an earlier search with the same model and options: they are rated again without being measured again. */
+  /** Candidates of an earlier search with the same model and options: they are rated again but not measured again. */
   measured?: readonly Candidate[] | undefined;
 }
 
-/** About how often `onCandidates` is called. */
+/** Approximate number of calls of `onCandidates`. */
 const RATINGS = 12;
 
 /** Measures one direction as a search does. */

@@ -1,11 +1,11 @@
-/** A pool of workers for work that splits into many tasks: each holds the model, and a free one takes the next tasks. */
+/** A pool of workers for work that splits into many tasks: each worker holds the model, and free ones take the next tasks. */
 import { disposed, untilAborted, type Remote, type Watch } from "./calls.js";
 import type { About, Client, Loaded } from "./client.js";
 
 /** More workers are no faster, and each holds the model. */
 const MOST_WORKERS = 8;
 
-/** The memory that searches in all workers together may take. */
+/** Maximum memory of a search in all workers together. */
 const MEMORY_BYTES = 512 << 20;
 
 /** Workers are terminated after this long without work. */
@@ -13,13 +13,13 @@ const IDLE_MS = 10_000;
 
 type Signal = Pick<Watch, "signal">;
 
-/** The number of workers for a model: up to `most`, fewer for a large model, at least one. */
+/** Number of workers for a model: up to `most`, fewer for a large model, at least one. */
 export function workersFor({ file, search_bytes }: Pick<Loaded, "file" | "search_bytes">, most: number): number {
   const fitting = Math.floor(MEMORY_BYTES / (search_bytes + file.size));
   return Math.max(1, Math.min(most, MOST_WORKERS, fitting));
 }
 
-/** Tasks to run next; `result` is null until all are done. */
+/** The next tasks; `result` is null until all are done. */
 export interface Step<Task> {
   tasks: Task[];
   result: unknown;
@@ -27,7 +27,7 @@ export interface Step<Task> {
 
 type Outcome<Next extends Step<unknown>> = NonNullable<Next["result"]>;
 
-/** Work whose tasks one worker hands out and any worker runs. */
+/** Work whose tasks one worker hands out and all run. */
 export interface Sharing<Task, Result, Next extends Step<Task>> {
   /** Delivers results, in any order, and returns up to `most` further tasks. */
   exchange: (remote: Remote, results: Result[], most: number) => Next | Promise<Next>;
@@ -36,9 +36,9 @@ export interface Sharing<Task, Result, Next extends Step<Task>> {
   onStep: (step: Next) => void;
 }
 
-/** Workers that hold the same model while the pool runs a task. */
+/** Workers that hold the same model while the pool works on it. */
 export interface Team {
-  /** Runs a query on the first worker, which is always the same one. */
+  /** Runs a query on the first worker, which stays the same. */
   ask<T>(question: (remote: Remote) => T | Promise<T>): Promise<T>;
   /** Runs tasks until there is a result. The first worker does the exchanges. Rejects with the first failure. */
   share<Task, Result, Next extends Step<Task>>(sharing: Sharing<Task, Result, Next>): Promise<Outcome<Next>>;
@@ -101,10 +101,10 @@ export class Pool {
   }
 }
 
-/** Tasks in stock per worker, for the time that the first worker is busy and cannot hand out more. */
+/** Tasks queued per worker, to bridge the time in which the first worker is busy and cannot hand out more. */
 const STOCK = 4;
 
-/** Messages per worker that the stock is spread over: few, as each takes time, but enough for all to finish together. */
+/** Messages per worker over which the queue is spread: few, as each takes time, but enough for all workers to finish together. */
 const MESSAGES = 2;
 
 function share<Task, Result, Next extends Step<Task>>(

@@ -1,15 +1,15 @@
-/** What a plan asks for in a price. The core computes it; here are only the numbers that it needs. */
+/** Order items of a plan: the numbers from which the core computes a price. */
 import type { PriceItem, Report } from "./wire.js";
 
-/** How a plan is ordered. */
+/** An order for the last plan. */
 export interface Ordered {
-  /** Copies of the model, each with its whole print time; 1 if absent. */
+  /** Number of times that the plan is printed, each with its whole print time; 1 by default. */
   copies?: number;
-  /** The finish, by its name in the prices. */
+  /** Name of the finish in the prices. */
   finish?: string;
 }
 
-/** Items of a price for `copies` prints of a plate: each of its copies has its share of the time. */
+/** Order items for `copies` prints of a plate. Each of the plate's copies has its share of the time. */
 export function priceItems({ models }: Report, copies = 1): PriceItem[] {
   return models.map((model) => ({ copies: model.copies * copies, resin_ml: model.resin_ml, print_time_s: model.print_time_s }));
 }

@@ -1,4 +1,4 @@
-/** What calls of the headless slicer result in, whether they are about a model or a plate. */
+/** Result types of the headless slicer, for models and plates. */
 import type { Report, Warning } from "./wire.js";
 
 /** The version of the result format. It increases when a field is removed or changes its meaning, not when one is added. */
@@ -25,22 +25,22 @@ export interface Mask {
 
 /** A print file. */
 export interface PrintFile extends Versioned {
-  /** The name to save it under: that of the model and `-cusp`, or what it is, and its extension, as in `cup-cusp.uvj`. */
+  /** Suggested file name: the name of the model, or what the file is, `-cusp`, and the extension, as in `cup-cusp.uvj`. */
   name: string;
-  /** Its media type: `application/zip`, or `application/octet-stream` if the format has an extension of its own. */
+  /** Media type: `application/zip`, or `application/octet-stream` if the format has its own extension. */
   type: string;
   blob: Blob;
-  /** The warnings of its plan. */
+  /** Warnings about the plan. */
   warnings: Warning[];
 }
 
-/** A print file under a name without its extension. */
+/** @param stem name without extension */
 export function printFile(stem: string, blob: Blob, report: Report): PrintFile {
   const { extension, media_type: type } = report.print_file;
   return { schema: SCHEMA, name: `${stem}.${extension}`, type, blob: blob.slice(0, blob.size, type), warnings: warningsOf(report) };
 }
 
-/** The warnings about the models of a plate, then those about the plate. */
+/** Warnings about the models of a plate, then about the plate. */
 export function warningsOf({ models, warnings }: Report): Warning[] {
   return [...models.flatMap((model) => model.warnings), ...warnings];
 }

@@ -1,7 +1,7 @@
-/** The corners of the two triangles of a quad. */
+/** Corners of the two triangles of a quad, as bits along and across the ring. */
 const [ALONG, ACROSS] = ["011010", "001011"];
 
-/** A small closed model: a ring of `2 × parts²` facets, nine numbers each, mm. */
+/** A small closed model: a ring of `2 × parts²` facets, nine numbers each, in mm. */
 export function ring(parts: number): Float32Array {
   const angle = (step: number): number => (2 * Math.PI * (step % parts)) / parts;
   const corners = Array.from({ length: 6 * parts * parts }, (_, k) => {

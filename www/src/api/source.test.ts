@@ -39,7 +39,7 @@ test("positions are an STL of their facets, with indices too", async () => {
   expect(await bytes(CORNERS)).toEqual(stl);
   expect(await bytes({ positions: Float32Array.from(VERTICES), indices: Uint16Array.from(INDICES) })).toEqual(stl);
   expect(await bytes({ positions: VERTICES, indices: INDICES })).toEqual(stl);
-  // Later changes are the caller's own.
+  // Later changes of the caller's array have no effect.
   const corners = CORNERS.slice();
   const resolved = bytes(corners);
   corners.fill(7);

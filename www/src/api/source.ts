@@ -1,22 +1,22 @@
-/** Turns each way of passing a model into a Blob with a name. */
+/** Turns every kind of source into a named Blob. */
 import { isAbort, said, SlicerError } from "./error.js";
 import { stlOf } from "./stl.js";
 
-/** Facets that share vertices: three coordinates a vertex, in mm, and three indices of vertices a facet. */
+/** An indexed mesh: three coordinates per vertex, in mm, and three vertex indices per facet. */
 export interface IndexedFacets {
   positions: ArrayLike<number>;
   indices: ArrayLike<number>;
 }
 
 /**
- * A file, its bytes or a stream of them; a URL, where a string is relative to the page, or the response to a request; or facets, as a
- * `Float32Array` of nine coordinates each, in mm, or with indices.
+ * Source of a model: a file; bytes or a stream of bytes; a URL, where a string is relative to the page; the response to a request; facets
+ * as nine coordinates each in a `Float32Array`, in mm; or an indexed mesh.
  */
 export type Source = Blob | ArrayBuffer | ArrayBufferView | ReadableStream<Uint8Array> | URL | string | Response | IndexedFacets;
 
 export interface Named {
   file: Blob;
-  /** The file's name, or the last part of a URL's path; `model.stl` if there is neither. */
+  /** Name of the file, or the last part of a URL's path; by default `model.stl`. */
   name: string;
 }
 
@@ -25,7 +25,7 @@ const NAMELESS = "model.stl";
 /** A model's name without its extension. */
 export const stemOf = (model: string): string => model.replace(/\.(stl|3mf|obj)$/i, "").trim() || "model";
 
-/** The source as a named Blob. Rejects with `fetch-failed` if it does not arrive, or with the signal's reason on an abort. */
+/** Reads a source as a named Blob. Rejects with `fetch-failed` if it does not arrive, or with the signal's reason on an abort. */
 export async function resolve(source: Source, signal?: AbortSignal): Promise<Named> {
   if (isA("File", source)) return { file: source, name: source.name };
   if (isA("Blob", source)) return { file: source, name: NAMELESS };
@@ -38,7 +38,7 @@ export async function resolve(source: Source, signal?: AbortSignal): Promise<Nam
   return { file: new Blob([bytesIn(source)]), name: NAMELESS };
 }
 
-/** Values that are told by their kind, also those of another frame. */
+/** Types recognised by their tag rather than `instanceof`, which fails for objects from another frame. */
 interface Kinds {
   File: File;
   Blob: Blob;
@@ -55,11 +55,11 @@ const kindOf = (value: unknown): string => Object.prototype.toString.call(value)
 
 const isA = <Kind extends keyof Kinds>(kind: Kind, value: unknown): value is Kinds[Kind] => kindOf(value) === kind;
 
-/** The bytes of a file in memory, or of an STL of facets. */
+/** The bytes of a file in memory, or an STL of facets. */
 function bytesIn(source: ArrayBuffer | ArrayBufferView | IndexedFacets): ArrayBuffer | ArrayBufferView<ArrayBuffer> {
   if (isA("Float32Array", source)) return stlOf(whole("positions", source, 9));
   const memory = ArrayBuffer.isView(source) && !isA("Float64Array", source) ? source.buffer : source;
-  // A Blob takes no memory that threads share.
+  // A Blob takes no shared memory.
   if (isA("ArrayBuffer", memory)) return source as ArrayBuffer | ArrayBufferView<ArrayBuffer>;
   if (areFacets(source)) return stlOf(cornersOf(source));
   const given = kindOf(memory);
@@ -73,7 +73,7 @@ function areFacets(source: unknown): source is IndexedFacets {
   return isList(positions) && isList(indices);
 }
 
-/** The corners of facets, nine coordinates each. */
+/** Corners of an indexed mesh, nine coordinates per facet. */
 function cornersOf({ positions, indices }: IndexedFacets): Float32Array {
   const vertices = whole("positions", positions, 3).length / 3;
   const corners = new Float32Array(3 * whole("indices", indices, 3).length);
@@ -87,7 +87,7 @@ function cornersOf({ positions, indices }: IndexedFacets): Float32Array {
   return corners;
 }
 
-/** Numbers, whose count has to be a multiple of this. */
+/** Checks that the count of numbers is a multiple of `multiple_of`. */
 function whole<List extends ArrayLike<number>>(list: "positions" | "indices", numbers: List, multiple_of: number): List {
   if (numbers.length % multiple_of === 0) return numbers;
   const message = `${list}: ${numbers.length} numbers are no multiple of ${multiple_of}`;
@@ -105,7 +105,7 @@ function nameOf(address: URL | string): string {
   }
 }
 
-/** A response whose body is given up on an abort, of which it does not know. */
+/** A response whose body is cancelled on an abort; its own request does not know the signal. */
 function abortable(response: Response, signal: AbortSignal | undefined): Response {
   const { ok, body } = response;
   return !ok || body === null || signal === undefined ? response : new Response(body.pipeThrough(new TransformStream(), { signal }));

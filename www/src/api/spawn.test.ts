@@ -38,7 +38,7 @@ test("what the bundler has put there stays for the next worker, and is found fro
   spawnWorker(null);
   started.dispatchEvent(new Event("message"));
   expect(revoked).not.toHaveBeenCalled();
-  // Turbopack's addresses have no origin.
+  // Turbopack's URLs have no origin.
   class Relative extends URL {
     override get href(): string {
       return this.protocol === "file:" ? this.pathname : super.href;

@@ -1,20 +1,20 @@
-/** Starts workers, on whatever origin their script is. */
+/** Starts workers, whatever origin serves their script. */
 import * as Comlink from "comlink";
 import { broke, type WorkerHandle } from "./calls.js";
 import { whenEnded } from "./liveness.js";
 import { listenTo } from "./told.js";
 import type { SlicerWorker } from "./wire.js";
 
-/** URL of the folder with the package's files, relative to the page; null: they are where a bundler has put them. */
+/** URL of the folder with the package's files, relative to the page; null: where the bundler put them. */
 export type Assets = string | URL | null;
 
-/** A script, and whether it is a module. */
+/** URL of a script with its worker options. */
 interface Script {
   address: string;
   options: WorkerOptions;
 }
 
-/** A page's Trusted Types, which TypeScript's library does not know. */
+/** The page's Trusted Types, which TypeScript's library lacks. */
 interface TrustedTypes {
   createPolicy(name: string, rules: Policy): Policy;
 }
@@ -23,7 +23,7 @@ interface Policy {
   createScriptURL(address: string): string;
 }
 
-/** Starts the slicer's worker. Throws `worker-failed` if the browser refuses to. */
+/** Starts the slicer's worker. Throws `worker-failed` if the browser refuses. */
 export function spawnWorker(assets: Assets): WorkerHandle {
   let script: Script;
   let start: Script;
@@ -35,14 +35,14 @@ export function spawnWorker(assets: Assets): WorkerHandle {
   } catch (error) {
     throw broke("worker-failed", error);
   }
-  // The blobs of bundlers start other workers, too.
+  // Bundlers' own blobs also start other workers, so those are not revoked.
   if (start !== script) worker.addEventListener("message", () => URL.revokeObjectURL(start.address), { once: true });
   listenTo(worker);
   return {
     remote: Comlink.wrap<SlicerWorker>(worker),
     terminate: () => worker.terminate(),
     onBroken: (callback) => {
-      // Browsers give no reason for a script that they have not loaded.
+      // Browsers give no reason if a script fails to load.
       worker.addEventListener("error", (event) => callback(event.message || `${script.address} could not be loaded`));
       worker.addEventListener("messageerror", () => callback("a message could not be read"));
       whenEnded(worker, () => callback("the worker has ended"));
@@ -50,19 +50,19 @@ export function spawnWorker(assets: Assets): WorkerHandle {
   };
 }
 
-/** The address of the WebAssembly module. */
+/** URL of the WebAssembly module. */
 export const wasmAddress = (assets: Assets): string =>
   // Bundlers recognise this exact form and emit the file.
   assets === null ? absolute(new URL("../../pkg/cusp_slicer_bg.wasm", import.meta.url)) : within(assets, "cusp_slicer_bg.wasm");
 
-/** An address for a worker, which may be from a blob and resolve none: Turbopack's has no origin. */
+/** Absolute URL: a worker from a blob resolves no relative ones, and Turbopack's have no origin. */
 const absolute = ({ href }: URL): string => new URL(href, globalThis.document?.baseURI).href;
 
 const within = (folder: string | URL, name: string): string => new URL(name, new URL(String(folder).replace(/\/?$/, "/"), document.baseURI)).href;
 
 /**
- * The script as a bundler has written it. Bundlers recognise a worker by the whole expression alone, whose worker may not be allowed to
- * start from there: a stand-in takes what they have made of it.
+ * Script URL as the bundler emits it. Bundlers recognise only the whole expression `new Worker(new URL(…))`, but the worker may not be
+ * allowed to start from that URL, so a stand-in for `Worker` captures what the bundler made of it.
  */
 function bundled(): Script {
   const { Worker: own } = globalThis;
@@ -77,23 +77,29 @@ function bundled(): Script {
   }
 }
 
-/** A script that a worker may start from: pages start none from another origin, but theirs may import one from there, if that allows it (CORS). */
+/**
+ * A script that a worker may start from. A page cannot start a worker from another origin, but a worker of the page's own origin may import
+ * a script from there if CORS allows.
+ */
 function fromHere(script: Script): Script {
   const { address, options } = script;
   const { href, protocol, origin } = new URL(address, location.href);
   if (!/^https?:$/.test(protocol) || origin === globalThis.origin) return script;
   const code = options.type === "module" ? importing(href) : running(href);
   const blob = new Blob([code], { type: "text/javascript" });
-  // In a sandboxed frame Chromium starts no module from a blob, and WebKit reads no file in a worker from a `data:`.
+  // In a sandboxed frame, Chromium starts no module from a blob, and WebKit reads no file in a worker from a `data:` URL.
   return { address: URL.createObjectURL(blob), options: { ...options, type: "classic" } };
 }
 
-/** Runs a classic script, to which `location` is its own, not the blob's: at its end Turbopack's reads what to load, and loads it from that origin alone. */
+/**
+ * Runs a classic script with its own `location` instead of the blob's: Turbopack's script finds there what to load, and loads only from
+ * that origin.
+ */
 const running = (address: string): string => `
 Object.defineProperty(self, "location", { value: new URL(${JSON.stringify(address)}) });
 importScripts(location.href);`;
 
-/** Imports a module, and hands it the messages that have arrived by then. */
+/** Imports a module, and replays the messages that arrive before it has loaded. */
 const importing = (address: string): string => `
 const early = [];
 const keep = (event) => early.push(event);
@@ -109,13 +115,13 @@ import(${JSON.stringify(address)}).then(
 
 let policy: Policy | undefined;
 
-/** An address as pages want it that enforce Trusted Types. */
+/** A URL as accepted by pages that enforce Trusted Types. */
 function trusted(address: string): string {
   const { trustedTypes } = globalThis as { trustedTypes?: TrustedTypes };
   try {
     policy ??= trustedTypes?.createPolicy("cusp", { createScriptURL: (address) => address });
   } catch {
-    // Not among those that the page allows. If it enforces them too, the browser refuses the worker.
+    // The page does not allow this policy. If it also enforces Trusted Types, the browser refuses the worker.
   }
   return policy?.createScriptURL(address) ?? address;
 }

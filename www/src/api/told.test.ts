@@ -2,7 +2,7 @@ import * as Comlink from "comlink";
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { listenTo, told, untold } from "./told.js";
 
-/** What a worker posts arrives at this end of it; what it hands over is gone at its own. */
+/** Page's end of the worker: receives its messages, while transferred buffers are detached at the worker's end. */
 let worker: EventTarget;
 
 beforeEach(() => {
@@ -15,7 +15,7 @@ beforeEach(() => {
 
 afterEach(() => vi.unstubAllGlobals());
 
-/** What a worker gets in place of a function. */
+/** The function that a worker receives in place of `listener`. */
 function sent<L>(listener: L): L {
   const handler = Comlink.transferHandlers.get("told");
   if (handler?.canHandle(listener) !== true) throw new Error("it cannot be sent");

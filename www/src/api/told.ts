@@ -1,8 +1,8 @@
 /**
- * Functions that a worker calls while it computes.
+ * Callbacks: functions of the page that a worker calls while it computes.
  *
- * The calls cross as messages of the worker itself. Comlink's proxies have a port each, and Firefox keeps what is sent through a port that came
- * with a call until that call is over.
+ * The calls cross as messages of the worker itself. Comlink's proxies have a port each, and Firefox holds back messages through a port that
+ * arrived with a call until that call is over.
  */
 import * as Comlink from "comlink";
 
@@ -18,19 +18,19 @@ const numbers = new WeakMap<Listener, number>();
 const listeners = new Map<number, Listener>();
 let last = 0;
 
-/** Has workers call a function while they compute. Everything it is given must be cloneable; bytes are handed over. */
+/** Registers a function that workers may call while they compute. Its arguments must be cloneable; byte arrays are transferred. */
 export function told<L extends Listener>(listener: L): L {
   if (!numbers.has(listener)) numbers.set(listener, ++last);
   listeners.set(numbers.get(listener) ?? 0, listener);
   return listener;
 }
 
-/** Calls a function no more. */
+/** Unregisters a callback. */
 export function untold(listener: Listener): void {
   listeners.delete(numbers.get(listener) ?? 0);
 }
 
-/** Has the functions called that this worker calls. */
+/** Dispatches a worker's messages to the callbacks. */
 export function listenTo(worker: Worker): void {
   worker.addEventListener("message", ({ data }: MessageEvent<Partial<Telling> | null>) => {
     if (data?.listener !== undefined) listeners.get(data.listener)?.(...((data.what ?? []) as never[]));
@@ -47,7 +47,7 @@ const tell = (listener: number): ((...what: unknown[]) => void) => {
   };
 };
 
-// Both ends import this module.
+// Page and worker both import this module.
 Comlink.transferHandlers.set("told", {
   canHandle: isListener,
   serialize: (listener: Listener) => [numbers.get(listener) ?? 0, []],

@@ -1,10 +1,10 @@
 /**
- * Ends the use of the upper halves of vector registers on this thread.
+ * Clears the upper halves of the vector registers on this thread.
  *
- * A worker inherits it from the page's thread, which Firefox leaves in it now and then, and on some processors everything that the worker
- * computes then takes up to 50 times as long (ARCHITECTURE.md). A script cannot ask for the instruction that ends it, but what formats
- * numbers runs it.
+ * A worker inherits their state from the page's thread, where Firefox sometimes leaves them in use. On some processors, everything that the
+ * worker computes then takes up to 50 times as long (ARCHITECTURE.md). Only the instruction `vzeroupper` clears them, which a script cannot
+ * issue, but number formatting runs it.
  *
- * @returns what it formatted, so that no compiler takes the call for one without effect
+ * @returns the formatted number, so that no compiler drops the call as one without effect
  */
 export const endUpperHalves = (): string => new Intl.NumberFormat("en").format(0);

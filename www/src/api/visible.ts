@@ -1,14 +1,14 @@
-/** Text from outside in what is said of failures: characters that act, or turn a line around, are shown and not obeyed. */
+/** Makes control characters in outside text visible in messages, so that they have no effect. */
 
-/** Control characters, ends of lines, and marks of the direction of writing, as the command line has them. */
+/** Control characters, line breaks and marks of writing direction, the same set as in the command line. */
 const ACTING = /[\p{Cc}\u061c\u200e\u200f\u2028-\u202e\u2066-\u2069\ufeff]/gu;
 
-/** A name, as of a file, as it is shown. */
+/** A name, as of a file, with control characters made visible. */
 export function shown(name: string): string {
   return name.replace(ACTING, (character) => `\\u{${(character.codePointAt(0) ?? 0).toString(16)}}`);
 }
 
-/** A value with every text in it as it is shown. */
+/** A value with control characters made visible in all its strings. */
 export function visible(value: unknown): unknown {
   if (typeof value === "string") return shown(value);
   if (Array.isArray(value)) return value.map(visible);

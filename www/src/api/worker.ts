@@ -14,7 +14,7 @@ import type { Help, KnownPrinter, OnProgress, PackedCandidates, Remote, SearchSt
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
 
-/** The size of a rehearsal: a few ms of work once it is compiled, but in most loops enough rounds to have them compiled well. */
+/** Parts of the ring for the warm-up: a few ms of work once compiled, but enough rounds in most loops for optimised code. */
 const REHEARSED = 20;
 const REHEARSED_RAYS = 128;
 
@@ -64,7 +64,7 @@ class BlobSink {
   }
 }
 
-/** Hands out the layers of the print file once helpers have encoded them, and forgets each; null if it is written sooner without. */
+/** Returns a function that hands out the encoded layer groups, and forgets each; null if the file is too short for helpers. */
 async function encodedBy(plate: number, helpers: number, help: Help, progress: OnProgress): Promise<((group: number) => Uint8Array) | null> {
   const groups = current().layer_groups(plate);
   if (groups === undefined) return null;
@@ -98,7 +98,7 @@ const api: Remote = {
   },
   async add(file, reading, progress, wantsPositions) {
     progress("load", 0, 0);
-    // A file that is no model is rejected before all of it is read.
+    // Rejects a file of another kind before reading all of it.
     identify(await bytesOf(file.slice(0, head_bytes())), file.size);
     current().add(await bytesOf(file), reading);
     const place = current().models() - 1;
@@ -201,7 +201,7 @@ const api: Remote = {
     const report = await calibrate_layers(options, sink.take, progress);
     return { blob: sink.finish(), report };
   },
-  // The core fills in what its list leaves out.
+  // The core fills in the defaults of its list.
   printers: () => printers() as KnownPrinter[],
   price(prices, items, finish) {
     const numbers = items.flatMap(({ copies, resin_ml, print_time_s }) => [copies, resin_ml, print_time_s]);
@@ -210,7 +210,7 @@ const api: Remote = {
 };
 
 if (globalThis.navigator?.gpu !== undefined) acceptCompatible(navigator.gpu);
-// On a server that imports every entry there is nothing to listen to.
+// On a server that imports every entry, there is no message target.
 if (globalThis.addEventListener !== undefined) {
   holdLock();
   Comlink.expose(api);
