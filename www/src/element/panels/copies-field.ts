@@ -1,4 +1,4 @@
-/** The number of copies of a model: typed, or stepped. */
+/** Field for the number of copies of a model, with step buttons. */
 import { html, nothing, type TemplateResult } from "lit";
 import { typed } from "../parts/typed.js";
 import { MOST_COPIES, type Plate } from "../state/plate.js";

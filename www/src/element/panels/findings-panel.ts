@@ -1,4 +1,4 @@
-/** `<cusp-findings>`: what will fail when the plan is printed, by kind. Choosing a finding shows where it is. */
+/** `<cusp-findings>`: the faults expected when the plan is printed, by kind. Choosing a finding shows its place. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { until } from "lit/directives/until.js";
 import type { SlicerError } from "../../api/index.js";
@@ -15,7 +15,7 @@ import { findingsStyles } from "../styles/findings-styles.js";
 import { shared } from "../styles/shared.js";
 import { shown } from "../../api/visible.js";
 
-/** How many findings of a kind are shown at first. */
+/** Number of findings per kind that are shown initially. */
 const FEW = 3;
 
 /** A tick; an exclamation mark; a cross. */
@@ -28,23 +28,23 @@ const SIGNS = {
 
 const PROPERTIES = {
   checks: given<Checks | null>(null),
-  /** The verdict of the last check; of an earlier plan, unless it is current. */
+  /** Verdict of the last check; of an earlier plan unless `isCurrent`. */
   verdict: given<Printability["verdict"] | null>(null),
-  /** What it found on each model, whose names these are. */
+  /** Findings of that check per model; `names` has the models' names. */
   models: given<readonly Checked[]>([]),
   names: given<readonly string[]>([], (a: unknown, b: unknown) => String(a) !== String(b)),
   isCurrent: given(false),
-  /** Why the plan could not be checked. */
+  /** Reason for which the plan could not be checked. */
   error: given<SlicerError | null>(null),
   chosen: given<Finding | null>(null),
-  /** True if there is a view to show how thick the walls of the selected model are. */
+  /** True if a view can show the wall thickness of the selected model. */
   hasView: given(true),
   showsWalls: given(false),
-  /** What counts as a thin wall, mm. */
+  /** Walls thinner than this are thin, mm. */
   wall_mm: given(0),
   metric: given<Metric>("cusp"),
   language: given<Language>(languageOf()),
-  /** The kinds of a model of which all findings are shown. */
+  /** Kinds, per model, whose findings are all shown. */
   whole: own<ReadonlySet<string>>(new Set()),
 };
 
@@ -89,7 +89,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       ${!this.#hasFindings ? html`<p class="quiet">${words.none}</p>` : nothing}`;
   }
 
-  /** The switch for the colours of the model. */
+  /** Switch for the wall thickness colours on the model. */
   #walls(words: FindingsTexts): TemplateResult {
     const { showsWalls, wall_mm, language: { format } } = this;
     return html`<label class="show-walls">
@@ -112,7 +112,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     return this.models.some(({ found }) => found.findings.length > 0);
   }
 
-  /** The findings of a model, below its name if there are several. */
+  /** Findings of a model, under its name if there are several models. */
   #model({ model, copies_mm, found }: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
     if (found.findings.length === 0) return nothing;
     const name = model === null ? null : shown(this.names[model] ?? "");
@@ -162,7 +162,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     </li>`;
   }
 
-  /** The arrow keys go from finding to finding, and Escape ends the choice. */
+  /** Arrow keys move between findings, and Escape clears the choice. */
   readonly #pressed = (event: KeyboardEvent): void => {
     const step = event.key === "ArrowDown" ? 1 : event.key === "ArrowUp" ? -1 : 0;
     if (step !== 0) {
@@ -172,7 +172,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       event.preventDefault();
       to.focus();
     } else if (event.key === "Escape" && this.chosen !== null) {
-      // The sheet around it stays.
+      // Keeps Escape from closing the sheet around the panel.
       event.stopPropagation();
       this.checks?.choose(null);
     }
@@ -183,7 +183,7 @@ function sign(of: keyof typeof SIGNS | Severity): TemplateResult {
   return html`<svg class=${of} viewBox="0 0 20 20" aria-hidden="true"><path d=${SIGNS[of]} /></svg>`;
 }
 
-/** Why a check failed. Codes and details match: both are of one error. */
+/** Reason for which a check failed. Code and detail belong to the same error. */
 async function sentenceOf({ code, detail }: SlicerError, language: Language, metric: Metric): Promise<string> {
   const { errors } = await fetchProblemTexts(language);
   return (errors[code] as (detail: unknown, metric: Metric) => string)(detail, metric);

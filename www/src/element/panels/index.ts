@@ -15,7 +15,7 @@ const PARTS = {
   "cusp-model": CuspModel,
 } as const;
 
-/** Registers the panels' elements once, except those that are fetched when first shown. Called when an element is created, not when this file is imported. */
+/** Registers the panels' elements once, except those fetched when first shown. Called when an element is created, not on import. */
 export function definePanels(): void {
   for (const [name, part] of Object.entries(PARTS)) define(name, part);
 }

@@ -1,4 +1,4 @@
-/** A layer's mask on a canvas that zooms, with a slider through the layers and a play button. */
+/** Layer mask on a zoomable canvas, with a layer slider and a play button. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
@@ -12,14 +12,14 @@ import { shared } from "../styles/shared.js";
 import { dragged, moved, WHOLE, windowOf, zoomed, type Point } from "../parts/window.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Minimum time between two layers during playback, normally and with reduced motion. */
+/** Minimum time between two layers during playback; the second value is for reduced motion. */
 const FRAME_MS = 60;
 const CALM_FRAME_MS = 400;
 
-/** How far an arrow key moves the picture, as a fraction of the visible part. */
+/** Distance that an arrow key moves the picture, as a fraction of the visible part. */
 const STEP = 0.125;
 
-/** The box around a finding: its colour, which a mask has not, and its room, CSS pixels. */
+/** Box around a finding: its colour, which no mask contains, and its margin in CSS pixels. */
 const MARK_COLOUR = "#ff9f1a";
 const MARK_ROOM_PX = 4;
 
@@ -30,7 +30,7 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowDown: [0, STEP],
 };
 
-/** What the panel needs of a report: also what a print file says of itself. */
+/** The fields of a report that the panel reads; a print file provides them too. */
 export interface Layered extends Pick<Report, "layers" | "z_mm" | "thickness_mm"> {
   mask: Pick<Report["mask"], "pitch_mm" | "pitch_y_mm">;
 }
@@ -40,7 +40,7 @@ const PROPERTIES = {
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
-  /** The finding to be shown, in its layers on each copy. */
+  /** The chosen finding, in its layers on each copy. */
   marks: given<readonly Pick<Finding, "bounds_mm" | "layers">[]>([]),
   language: given(languageOf()),
   place: own(WHOLE),
@@ -50,7 +50,7 @@ const PROPERTIES = {
 export class CuspMask extends elementWith(PROPERTIES) {
   #resized: ResizeObserver | null = null;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** The pointers on the picture, by their id: one drags, two zoom. */
+  /** Pointers on the picture, by id: one drags, two zoom. */
   readonly #held = new Map<number, Point>();
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
 
@@ -81,7 +81,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const thickness = format.height(thickness_mm);
     const said = words.said(format.count(layer + 1), format.count(layers), z, thickness);
     const isZoomed = place.zoom > 1;
-    // Two fingers zoom by any factor.
+    // A two-finger zoom is not a whole number.
     const zoom = place.zoom < 10 ? format.tick(Math.round(place.zoom * 10) / 10) : format.count(place.zoom);
     return html`
       <div class="head"><h3>${words.title}</h3></div>
@@ -191,18 +191,18 @@ export class CuspMask extends elementWith(PROPERTIES) {
       pen.drawImage(picture, x, y, picture.width * factor * scale[0], picture.height * factor * scale[1]);
     }
     this.#mark(pen, part, scale);
-    // The layer of the picture, which may lag behind the slider.
+    // The layer painted, which may lag behind the slider.
     canvas.dataset["layer"] = String(mask.layer);
   }
 
-  /** Draws boxes around the finding, if it is in the layer of the picture. */
+  /** Draws boxes around the chosen finding if the painted layer contains it. */
   #mark(pen: CanvasRenderingContext2D, part: Rectangle, scale: readonly [number, number]): void {
     const { mask, report } = this;
     const marks = mask === null ? [] : this.marks.filter(({ layers: [first, last] }) => mask.layer >= first && mask.layer <= last);
     this.#canvas.toggleAttribute("data-marked", marks.length > 0);
     if (mask === null || report === null) return;
     const { pitch_mm, pitch_y_mm } = report.mask;
-    // The model is in the middle of the mask, whose rows begin at the back.
+    // The model is in the middle of the mask, whose rows start at the back.
     const at = (x_mm: number, y_mm: number): Point => [
       (mask.width / 2 + x_mm / pitch_mm - part.x) * scale[0],
       (mask.height / 2 - y_mm / pitch_y_mm - part.y) * scale[1],
@@ -260,7 +260,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     this.#drag({ times: 2, from: at, to: at });
   };
 
-  /** Keeps two fingers for the picture: the browser would scroll by them. */
+  /** Reserves two-finger gestures for the picture; the browser would scroll. */
   readonly #touch = (event: TouchEvent): void => {
     if (event.touches.length > 1 && event.cancelable) event.preventDefault();
   };
@@ -290,7 +290,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     this.place = dragged(this.place, drag, [mask.width, mask.height], [clientWidth, clientHeight], pitchOf(report));
   }
 
-  /** The middle of the pointers, and how far the first two are apart; 0 for one. */
+  /** Centre of the pointers, and the distance of the first two; 0 for one. */
   #grip(): { middle: Point; spread_px: number } {
     const [[x, y] = [0, 0], other] = [...this.#held.values()];
     if (other === undefined) return { middle: [x, y], spread_px: 0 };
@@ -305,7 +305,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
   }
 }
 
-/** The height of a pixel divided by its width. */
+/** Pixel height divided by pixel width. */
 function pitchOf({ mask }: Layered): number {
   return mask.pitch_y_mm / mask.pitch_mm;
 }

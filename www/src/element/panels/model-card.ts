@@ -34,10 +34,10 @@ export interface ModelActions {
   openFile(place: number): void;
 }
 
-/** The warnings of the models and of the plan, with what may help. Of several models each warning names its own. */
+/** Warnings about the models and the plan, with offers. With several models, each warning names its model. */
 export function warnings(session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
   const { model, result, fixed, settings, plate: { entries } } = session;
-  // The size is not odd once a unit or a height is chosen.
+  // Once a unit or a height is chosen, the size is intended.
   const isSized = settings.unit !== "" || settings.height.trim() !== "";
   const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
   const planned = result?.report.models ?? [];
@@ -55,13 +55,13 @@ export function warnings(session: Session, language: Language, saveTowers: () =>
   );
 }
 
-/** A list of the plates of a project, of which another can be read. */
+/** List of the plates of a project, to read another one. */
 function plateList(session: Session, { plate_number, plates }: PlateChoice, label: string, { texts, format }: Language): TemplateResult {
   const numbers = Array.from({ length: plates }, (_, index) => index + 1);
   const chosen = ({ target }: Event): void => {
     const list = target as HTMLSelectElement;
     const number = Number(list.value);
-    // Until that plate is read, this one is open.
+    // This plate stays open until the other is read.
     list.value = String(plate_number);
     void session.reread({ ...session.model?.reading, plate_number: number });
   };
@@ -72,7 +72,7 @@ function plateList(session: Session, { plate_number, plates }: PlateChoice, labe
   </select>`;
 }
 
-/** A button for uniform layers, where they do about as well as the plan. */
+/** Button for uniform layers, shown if they do about as well as the plan. */
 export function uniformOffer(session: Session, language: Language): TemplateResult | typeof nothing {
   const best = session.result === null ? null : enough(session.result);
   if (best === null) return nothing;
@@ -95,7 +95,7 @@ export function modelCard(
   if (model === null) return html``;
   const { name, info } = model;
   const own = info.size_mm;
-  // A plate is as high as the highest of its models.
+  // The height of a plate is that of its highest model.
   const height_mm = session.plate.isSeveral ? session.plate.heightOf(place) : result === null ? undefined : ownHeight(result.report);
   const scale = height_mm && own[2] !== 0 ? height_mm / own[2] : 1;
   const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;

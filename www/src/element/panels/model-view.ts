@@ -1,4 +1,4 @@
-/** The 3-D view of the model and its tools. The view itself, and three.js with it, is fetched when first shown. */
+/** The 3-D view of the model and its tools. The view, including three.js, is fetched when first shown. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import type { Model } from "../../api/index.js";
 import type { ModelCalls } from "../state/selected.js";
@@ -36,20 +36,20 @@ import { modelViewStyles } from "../styles/model-view-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Few people paint, or place points. */
+/** Few people paint or place points, so this code is fetched on demand. */
 const paintCode = new FetchedPanel("paint", () => import("./paint-tools.js"));
 const pointCode = new FetchedPanel("points", () => import("./point-tools.js"));
 
 /** Initial size of the brush, as a fraction of the model's longest side. */
 const BRUSH_PART = 0.2;
 
-/** A view is shown after the plan, but at the latest so long after the model was read. */
+/** The view appears after the first plan, or this long after the model was read. */
 const LATEST_MS = 700;
 
 /** Fetches the view. */
 export const fetchView = fetched(() => import("../../view/cusp-view.js"));
 
-/** Always the same list: another one would count as a change. */
+/** Constant, since a new array would count as a change. */
 const NO_POINTS: CuspView["points"] = [];
 const NO_COPIES: readonly Standing[] = [];
 
@@ -60,71 +60,71 @@ export interface Scaled {
 
 const PROPERTIES = {
   slicer: given<ModelCalls | null>(null),
-  /** A different model has its positions fetched. */
+  /** The open model; a change fetches its positions. */
   model: given<Model | null>(null),
-  /** The positions of the model, if they came with it. */
+  /** Positions of the model, if read together with it. */
   corners: given<Float32Array | null>(null),
-  /** True if the first plan of the model is being made. It is shown first: what the view does takes processors away from it. */
+  /** True during the first plan of the model. The view waits for it, since both compete for the processor. */
   isPlanning: given(false),
   shown: given<Shown | null>(null),
   layer: given(0),
-  /** The finding to be shown, on each copy. */
+  /** The chosen finding, on each copy. */
   marks: given<readonly Mark[]>([]),
-  /** Whether to show how thick the model is: what is thinner than this is marked, mm; null: not to. */
+  /** Wall thickness below which the model is marked, mm; null hides the thickness colours. */
   walls_mm: given<number | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** The height that the model is scaled to, and the pose in which it has that height; null for the file's own size. */
+  /** Height of the scaled model, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
   printer: given<Printer | null>(null),
-  /** The copies on the plate shown; none if the model is alone. */
+  /** Copies on the plate shown; empty for a single model. */
   copies: given<readonly Copy[]>([]),
-  /** The places of those that overlap others, or extend beyond the plate. */
+  /** Indices of copies that overlap others or extend beyond the plate. */
   crowded: given<ReadonlySet<number>>(new Set()),
-  /** Fetches the positions of a model of the plate. */
+  /** Source of the positions of the plate's models. */
   shapes: given<Shapes | null>(null),
   language: given(languageOf()),
-  /** The chart's plot and its heights, which the view aligns with where the plot is beside it; null without a chart. */
+  /** The chart's plot and its heights, with which the view aligns when next to it; null without a chart. */
   plot: given<PlotPlace | null>(null),
-  /** True if the plot is beside the view. */
+  /** True if the plot is next to the view. */
   canAlign: own(false),
   positions: own<Float32Array | null>(null),
-  /** True if the view has been fetched. */
+  /** True if the view's code has been fetched. */
   isThere: own(false),
-  /** True if it could not be fetched. */
+  /** True if fetching it failed. */
   isMissing: own(false),
   /** True if the browser has no WebGL. */
   isBroken: own(false),
   tool: own<Tool>("turn"),
   look: own<Look>("thickness"),
   palette: own<PaletteName>("classic"),
-  /** Whether to align heights with the chart, if that is beside the view, and neither painting nor the printed look need another camera. */
+  /** True to align heights with the chart, when it is next to the view and neither painting nor the printed look need another camera. */
   aligned: own(true),
   settings: given(DEFAULT_SETTINGS),
-  /** The session whose points are placed by hand, with the settings above; null: they cannot be. */
+  /** The session for placing points by hand, with the settings above; null if that is not possible. */
   edited: given<Edited | null>(null),
-  /** How much each facet matters; null: all equally. */
+  /** Importance of each facet; null: all equal. */
   weights: given<Float32Array | null>(null),
-  /** How much each facet stands out; null until it is needed. */
+  /** Saliency of each facet; null until needed. */
   saliency: own<Float32Array | null>(null),
   isFinding: own(false),
   brush: own(BRUSH),
   colours: own<Colours>("product"),
   canUndo: own(false),
   canRedo: own(false),
-  /** The copies as the view draws them. */
+  /** Copies as the view draws them. */
   standing: own<readonly Standing[]>([]),
-  /** The copy that was pressed last, by its place. */
+  /** Index of the copy pressed last. */
   pressed: own<number | null>(null),
 };
 
 export class CuspModel extends elementWith(PROPERTIES) {
-  /** The factor from the file's lengths to those of the model. */
+  /** Scale factor from the file to the model. */
   #scale = 1;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
-  /** Resolves when it is the view's turn: the first plan of the model is painted, or takes long. */
+  /** Resolves when the view may start: the model's first plan is painted, or takes long. */
   #turn: Promise<unknown> = Promise.resolve();
-  /** Ends that wait. */
+  /** Ends that wait early. */
   #next: (() => void) | null = null;
   #canAlign = false;
   #points: PointEditor | null = null;
@@ -147,7 +147,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     if (this.isPlanning || this.#next === null) return;
     const next = this.#next;
     this.#next = null;
-    // The callbacks of a frame run before it is painted.
+    // Callbacks of a frame run before it is painted.
     requestAnimationFrame(() => setTimeout(next));
   }
 
@@ -162,7 +162,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     }
     if ((this.tool === "move" || places(this.tool)) && !this.#offered.has(this.tool)) this.tool = "turn";
     const isPainting = this.tool === "paint";
-    // Previews of turns and of strokes have a worker of their own, which reads the model now.
+    // Starts the preview worker early, so that it has read the model before the first turn or stroke.
     if (changed.has("tool") && (isPainting || this.tool === "rotate")) this.slicer?.preview().catch(() => undefined);
     const needsSaliency = this.#counts ? isPainting || this.#showsHeat : isPainting && this.colours === "saliency";
     if (needsSaliency && this.positions !== null && this.saliency === null && !this.isFinding) void this.#find();
@@ -174,16 +174,16 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const isPlacing = places(tool);
     const isEditing = isPainting || isPlacing;
     const walls_mm = isEditing ? null : this.walls_mm;
-    // A model is edited alone, and so are its walls seen; its copies follow.
+    // Editing and wall thickness show the model alone, without its copies.
     const isPlate = this.copies.length > 0 && !isEditing && walls_mm === null;
     const isMeasured = this.look === "distance" && !isEditing && walls_mm === null;
     const isPrinted = isMeasured || (this.look === "printed" && !isEditing && walls_mm === null);
-    // An aligned view shows all of the model, and from the side only: no single steps, no top to paint or to see walls from, no
-    // bottom to support, and no plate with copies.
+    // An aligned view shows the whole model from the side only, which rules out the printed look, painting, walls, supports and plates of
+    // copies.
     const isAligned = this.aligned && !isEditing && !isPrinted && !isPlate && walls_mm === null;
     const showsHeat = this.#showsHeat;
     const points = this.#placed?.of(tool);
-    // Supports and holes keep off what weighs much in the plan.
+    // While placing points, show the weights that supports and holes avoid: those that count in the plan.
     const heat = isPlacing ? "product" : this.colours === "layers" ? "paint" : this.colours;
     const { texts } = language;
     const words = texts.view;
@@ -262,13 +262,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
     `;
   }
 
-  /** The place of the copy that the model is drawn as; null while its positions arrive. */
+  /** Index of the copy that stands for the selected model; null until its positions arrive. */
   get #selected(): number | null {
     const own = this.copies.filter(({ entry }) => entry.model === this.#shownModel);
     return (own.find(({ place }) => place === this.pressed) ?? own[0])?.place ?? null;
   }
 
-  /** The supports of the model, on a plate those of its copies. */
+  /** Supports of the model; on a plate, each copy has its own. */
   get #supports(): Float32Array | null {
     const place = this.#selected;
     return this.standing.find((copy) => copy.place === place)?.supports ?? this.shown?.supports ?? null;
@@ -299,7 +299,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#say<PaletteName>("cusp-palette", this.palette);
   };
 
-  /** Leaves the tools that have their own colours. */
+  /** Leaves the tools that use their own colours. */
   #look(look: Look): void {
     this.look = look;
     this.#endWalls();
@@ -310,12 +310,12 @@ export class CuspModel extends elementWith(PROPERTIES) {
     if (this.tool === "paint" || places(this.tool)) this.tool = "turn";
   }
 
-  /** Leaves the colours of walls, where other ones are asked for. */
+  /** Hides the wall thickness colours when others are requested. */
   #endWalls(): void {
     if (this.walls_mm !== null) this.#say("cusp-walls", null);
   }
 
-  /** Leaves what needs another camera. */
+  /** Aligning leaves every mode that needs another camera. */
   readonly #align = (on: boolean): void => {
     this.aligned = on;
     if (!on) return;
@@ -324,13 +324,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.look = "thickness";
   };
 
-  /** In the next frame: in this one the layout is being settled. */
+  /** Deferred to the next frame, since this one is still being laid out. */
   readonly #besides = ({ detail }: CustomEvent<boolean>): void => {
     this.#canAlign = detail;
     requestAnimationFrame(() => (this.canAlign = this.#canAlign));
   };
 
-  /** Returns true if the view shows weights: while they are painted, and while supports or holes are placed that keep off the largest ones. */
+  /** Returns true if the view shows weights: while they are painted, and while supports or holes that avoid large weights are placed. */
   get #showsHeat(): boolean {
     const { tool, colours, settings, weights } = this;
     return tool === "paint" ? colours !== "layers" : places(tool) && settings.spare === "on" && (weights !== null || this.#counts);
@@ -341,7 +341,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.settings.saliency === "on";
   }
 
-  /** The tools that there is something for: copies to move, and points to place on a model that is to be printed in resin. */
+  /** Available tools: moving copies, and placing points on a model for resin. */
   get #offered(): ReadonlySet<Tool> {
     const { settings: { format, wall }, edited } = this;
     const offered = new Set<Tool>(this.copies.length > 0 ? ["move"] : []);
@@ -351,7 +351,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return offered;
   }
 
-  /** What places points; null while it is not needed, or not there. */
+  /** The point editor; null if not needed or not yet fetched. */
   get #placed(): PointEditor | null {
     const { tool, edited, slicer } = this;
     if (!places(tool) || pointCode.code === null || edited === null || slicer === null) return null;
@@ -404,7 +404,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     this.#scale = own_mm > 0 ? (scaled?.height_mm ?? own_mm) / own_mm : 1;
   }
 
-  /** The model's longest side at its current scale, mm: the maximum size of the brush. */
+  /** Longest side of the model at its current scale, mm: the maximum size of the brush. */
   get #reach(): number {
     return this.#scale * Math.max(...(this.model?.info.size_mm ?? [1]));
   }
@@ -419,7 +419,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { model, slicer } = this;
     if (slicer === null) return;
     this.isFinding = true;
-    // Without saliency there is nothing to show; a broken worker is reported elsewhere.
+    // Without saliency nothing is shown; a broken worker is reported elsewhere.
     const saliency = await slicer.saliency().catch(() => new Float32Array(0));
     this.isFinding = false;
     if (this.model === model) this.saliency = saliency;
@@ -435,7 +435,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.#texts.words;
   }
 
-  /** Fires an event of the view again from here, since those do not bubble. */
+  /** Re-fires an event of the view, since those do not bubble. */
   #tell<Detail>({ type, detail }: CustomEvent<Detail>): void {
     this.#say(type, detail);
   }

@@ -1,4 +1,4 @@
-/** The orientation panel: the aims of the search, the sphere of scores, the orientation now, and the best ones to choose from. */
+/** The orientation panel: the aims of the search, the sphere of scores, the current orientation, and the best ones to choose from. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { Found } from "../../api/index.js";
@@ -23,41 +23,41 @@ import { elementWith, given, own } from "../../view/properties.js";
 
 const COSTS: readonly Aims["cost"][] = ["layers", "time"];
 const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang", "islands", "cups", "supports", "contacts"];
-/** What excludes directions, by the names of their words. */
+/** Metrics with an exclusion limit, and the aims that hold it. */
 const LIMITS = { overhang: "most_overhang_mm2", islands: "most_islands", cups: "most_cups_mm2" } as const;
 /** Number of steps of the slider. */
 const STEPS = 20;
 /** Side length of a thumbnail in pixels; it is shown at half that size. */
 const PICTURE_PX = 256;
 
-/** The part of a search that the panel shows. */
+/** The fields of a search that the panel shows. */
 export type Searched = Readonly<Pick<OrientationSearch, "aims" | "found" | "best" | "now" | "busy" | "isCurrent" | "isPossible" | "options">>;
 
 const PROPERTIES = {
   slicer: given<ModelCalls | null>(null),
   searched: given<Searched | null>(null),
-  /** The metric of errors if the search's options name none. */
+  /** Error metric if the search's options name none. */
   metric: given<Metric>("cusp"),
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** The rotation of the camera in the view beside it; null without a view. */
+  /** Camera rotation of the neighbouring view; null without a view. */
   camera: given<Rotation | null>(null),
   palette: given<PaletteName>("classic"),
   language: given(languageOf()),
-  /** The candidate that is pointed at, or chosen on the sphere. */
+  /** The candidate under the pointer, or chosen on the sphere. */
   looked: own<Looked | null>(null),
-  /** True if the code that draws the thumbnails could not be fetched. */
+  /** True if the code for thumbnails could not be fetched. */
   isUnpictured: own(false),
 };
 
 export class CuspOrientation extends elementWith(PROPERTIES) {
   #drawing: AbortController | null = null;
-  /** The rotation in which a canvas shows the model. */
+  /** The rotation of the model drawn on each canvas. */
   #drawn = new WeakMap<HTMLCanvasElement, string>();
 
   static override styles = [shared, progressStyles, partStyles, orientationStyles];
 
   override firstUpdated(): void {
-    // Thumbnails have the page's colours. Any change of those starts a transition on the probe.
+    // Thumbnails use the page's colours; any change of those starts a transition on the probe.
     this.renderRoot.addEventListener("transitionrun", ({ target }) => {
       if (!(target as Element).classList.contains("probe")) return;
       this.#drawn = new WeakMap();
@@ -145,7 +145,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The most of something that a direction may have; empty if it does not matter. */
+  /** Field for the maximum of a metric; empty for no limit. */
   #limit(name: keyof typeof LIMITS, aims: Aims): TemplateResult {
     const { limits } = this.language.texts.orientation;
     const field = LIMITS[name];
@@ -158,7 +158,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         .value=${typed(String(aims[field] ?? ""))}
         @change=${({ target }: Event) => {
           const input = target as HTMLInputElement;
-          // What the field refuses is left as it was.
+          // An invalid entry leaves the aim unchanged.
           if (input.validity.valid) this.#aim({ [field]: input.value === "" ? undefined : input.valueAsNumber });
           else input.reportValidity();
         }}
@@ -166,7 +166,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </label>`;
   }
 
-  /** The progress bar; it appears late while candidates are only rated again, which is usually done before. */
+  /** The progress bar. While candidates are only rated again, it appears after a delay, since that usually ends sooner. */
   #progress(busy: Busy, { best }: Searched): TemplateResult {
     return html`<div class=${best.length > 0 ? "again quick" : "again"}>
       ${progressBar(busy, this.language, () => this.#say("cusp-search-cancel", null))}
@@ -222,7 +222,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The metrics of the candidate that is pointed at, or chosen on the sphere. */
+  /** Metrics of the candidate under the pointer, or chosen on the sphere. */
   #metrics({ options }: Searched): TemplateResult {
     const { looked, language } = this;
     const { orientation: words } = language.texts;
@@ -240,7 +240,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The pose of the model, to compare the best ones with; without figures until they are known, and while the model is being turned. */
+  /** The current pose, for comparison; without figures until they are known, and while the model is being turned. */
   #now(searched: Searched): TemplateResult {
     const { orientation: words } = this.language.texts;
     const now = this.#measuredNow(searched);
@@ -276,7 +276,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </button>`;
   }
 
-  /** The figures of a pose; what it has more or less of comes after the layers and the time. */
+  /** Figures of a pose: layers and time, then its differences from the current pose. */
   #figures({ metrics }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
     const { language } = this;
     const { texts } = language;
@@ -297,7 +297,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       </span>`;
   }
 
-  /** What a pose has more or less of than the pose of the model; nothing if that is not measured. */
+  /** Differences from the current pose in words; empty if that is not measured. */
   #differences({ metrics }: Candidate, searched: Searched): string[] {
     const now = this.#measuredNow(searched)?.metrics ?? null;
     if (metrics === null || now === null) return [];
@@ -323,7 +323,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
   }
 
-  /** Draws the best poses. The model's positions are fetched for this and not kept. */
+  /** Draws the best poses. The model's positions are fetched for this and then dropped. */
   async #drawThumbnails(): Promise<void> {
     this.#drawing?.abort();
     const { slicer, searched } = this;
@@ -331,7 +331,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     const drawing = new AbortController();
     this.#drawing = drawing;
     const { signal } = drawing;
-    // Without thumbnails there are still the metrics; a broken worker is reported elsewhere.
+    // Without thumbnails, the metrics still show; a broken worker is reported elsewhere.
     const positions = await slicer.positions().catch(() => null);
     if (positions === null || signal.aborted) return;
     const pictures = await fetchPictures().catch((error: unknown) => {
@@ -341,7 +341,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     this.isUnpictured = pictures === null;
     if (pictures === null || signal.aborted) return;
     const canvases = [...this.renderRoot.querySelectorAll<HTMLCanvasElement>(".best canvas")];
-    // The first card is that of the pose now.
+    // The first card shows the current pose.
     const rotations = [searched.now?.rotation ?? this.rotation, ...searched.best.map(({ rotation }) => rotation)];
     const thumbnails = rotations.flatMap((rotation, i) => {
       const canvas = canvases[i];
@@ -369,7 +369,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   }
 }
 
-/** The metrics, score and size of a candidate that are known: name, value, and what the name means if that needs words. */
+/** The known metrics, score and size of a candidate: name, value, and an explanation where needed. */
 export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string, string?][] {
   const { texts, format } = language;
   const { orientation: words } = texts;

@@ -1,4 +1,4 @@
-/** The scores of all directions on a Gaussian sphere, from the front and from behind, turned with the model beside it. */
+/** Scores of all directions on a Gaussian sphere, seen from the front and the back, turning with the neighbouring view. */
 import { css, html, nothing, svg, type PropertyValues, type SVGTemplateResult, type TemplateResult } from "lit";
 import type { Found } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
@@ -11,19 +11,19 @@ import { stepped, type Way } from "../parts/sphere-steps.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Limit of the device pixel ratio to draw at: finer pixels are not visible. */
+/** Maximum device pixel ratio to draw at; finer pixels are not visible. */
 const DENSITY_LIMIT = 2;
 
 /** The grey of excluded directions, outside the colour scale; visible on light and dark cards. */
 const EXCLUDED: Rgb = [138, 143, 152];
 
-/** Distance within which the pointer hits a mark, in radii of the sphere. */
+/** Hit radius of a mark, in radii of the sphere. */
 const MARK_REACH = 0.1;
 
 /** The candidate whose metrics are shown. */
 export interface Looked {
   readonly candidate: Candidate;
-  /** True if it stays when the pointer leaves. */
+  /** True if it stays after the pointer leaves. */
   readonly isChosen: boolean;
 }
 
@@ -31,7 +31,7 @@ const SIDES: readonly Side[] = ["front", "back"];
 
 const WAYS: Readonly<Record<string, Way>> = { ArrowLeft: "left", ArrowRight: "right", ArrowUp: "up", ArrowDown: "down" };
 
-/** The camera until the view beside the sphere reports its own, and without a view. */
+/** Initial camera, also used without a view. */
 const FIRST_CAMERA = lookFrom(FIRST_LOOK);
 
 /** Lowest and highest energy of the candidates; null if none is rated. */
@@ -57,7 +57,7 @@ const PROPERTIES = {
   best: given<readonly Candidate[]>([]),
   /** The rotation of the model. */
   rotation: given<Rotation>([0, 0, 0, 1]),
-  /** The rotation of the camera in the view beside it; null without a view. */
+  /** Camera rotation of the neighbouring view; null without a view. */
   camera: given<Rotation | null>(null),
   palette: given<PaletteName>("classic"),
   language: given(languageOf()),
@@ -68,7 +68,7 @@ const PROPERTIES = {
 };
 
 export class CuspSphere extends elementWith(PROPERTIES) {
-  /** True if the last press was a touch: not every browser's click event says so. */
+  /** True if the last press was a touch: not all browsers report that in the click event. */
   #isTouched = false;
   #nearest: { of: Float64Array; nearest: Nearest } | null = null;
   readonly #resized = new ResizeObserver(() => this.#draw());
@@ -178,7 +178,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (!changed.has("found")) return;
-    // The hovered and the chosen candidate stay, with their newest metrics.
+    // Updates the hovered and the chosen candidate with their newest metrics.
     const newest = (it: Candidate | null): Candidate | null =>
       it === null ? null : (this.found?.candidates[this.#indexAt(it.direction) ?? -1] ?? null);
     this.hovered = newest(this.hovered);
@@ -224,7 +224,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The rotation from the file's frame to the viewer's: right, up, towards the viewer. */
+  /** Rotation from the file's frame to the viewer's: right, up, towards the viewer. */
   get #facing(): Rotation {
     return combined(this.rotation, back(this.camera ?? FIRST_CAMERA));
   }
@@ -238,7 +238,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     const ring = (x: number, y: number, radius: number): SVGTemplateResult =>
       svg`<circle class="halo" cx=${x} cy=${y} r=${radius} /><circle cx=${x} cy=${y} r=${radius} />`;
     const up = at(turn(back(this.camera ?? FIRST_CAMERA), [0, 0, 1]), (x, y) => {
-      // Longer than the mark of a best candidate, which may be at the same place.
+      // Longer than the mark of a best candidate, which may coincide.
       const cross = `M${x - 14} ${y}h28M${x} ${y - 14}v28`;
       return svg`<g class="up"><path class="halo" d=${cross} /><path d=${cross} /></g>`;
     });
@@ -276,7 +276,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
     }
   }
 
-  /** The candidate at the pointer, which is a best one near its mark; null outside the sphere. */
+  /** Candidate at the pointer: a best one if near its mark; null outside the sphere. */
   #at({ currentTarget, clientX, clientY }: MouseEvent, side: Side): Candidate | null {
     const { left, top, width } = (currentTarget as HTMLElement).getBoundingClientRect();
     const place: Place = [(2 * (clientX - left)) / width - 1, 1 - (2 * (clientY - top)) / width];

@@ -1,4 +1,4 @@
-/** The tools for painting weights: the brush, what the colours show, and weight files. */
+/** The tools for painting weights: the brush, the choice of colours, and weight files. */
 import { chosen } from "../parts/chosen.js";
 import { css, html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
@@ -7,7 +7,7 @@ import type { Brush, BrushMode } from "../../view/paint/brush.js";
 import type { Heat } from "../../view/paint/heat.js";
 import { WEIGHT_STEPS, type Settings } from "../state/settings.js";
 
-/** What the colours of the model show while it is painted: weights, or the resulting layers. */
+/** Meaning of the model's colours while painting: weights, or the resulting layers. */
 export type Colours = Heat | "layers";
 
 export interface PaintTools {

@@ -1,4 +1,4 @@
-/** `<cusp-plate>`: the models on the plate, their copies, how they are arranged, and the plates. */
+/** `<cusp-plate>`: the models on the plate, their copies, the rules of arranging, and the plates. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { until } from "lit/directives/until.js";
 import type { Plan } from "../../api/index.js";
@@ -18,13 +18,13 @@ import { shown } from "../../api/visible.js";
 /** Side of a thumbnail, CSS pixels. */
 const THUMBNAIL_PX = 40;
 
-/** Steps of turns that a person can choose, degrees. */
+/** Choices for the turning step when arranging, degrees. */
 const TURNS_DEG = [0, 15, 45, 90, 180] as const;
 
-/** The largest spacing, mm: the core's. */
+/** Maximum spacing in the core, mm. */
 const MOST_SPACING_MM = 100;
 
-/** How many problems are told in words; the view marks all. */
+/** Maximum number of problems listed as sentences; the view marks all. */
 const MOST_SENTENCES = 3;
 
 const UPRIGHT = [0, 0, 0, 1] as const;
@@ -37,7 +37,7 @@ const PROPERTIES = {
   number: given(0),
   plates: given(1),
   planned: given<Plan | null>(null),
-  /** Where copies stand by hand. */
+  /** Copies placed by hand. */
   placed: given<readonly Placement[]>([]),
   problems: given<readonly ArrangeError[]>([]),
   misread: given<MisreadCopies | null>(null),
@@ -130,7 +130,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     `,
   ];
 
-  /** What each canvas shows. */
+  /** The model and pose drawn on each canvas. */
   readonly #drawn = new WeakMap<HTMLCanvasElement, string>();
   #drawing: AbortController | null = null;
 
@@ -213,7 +213,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The plates one by one, and all of them. */
+  /** Buttons for each plate and for all plates. */
   #steps(plate: Plate): TemplateResult {
     const { number, plates, planned, language, isBusy } = this;
     const { format } = language;
@@ -237,7 +237,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
         : html`<p class="quiet figures">${words.whole(format.time(planned.print_time_s), format.millilitres(planned.resin_ml))}</p>`}`;
   }
 
-  /** Draws the thumbnails that show another model or pose than before. */
+  /** Draws thumbnails whose model or pose has changed. */
   async #draw(): Promise<void> {
     const { plate, entries } = this;
     if (plate === null) return;
@@ -260,7 +260,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
         this.#drawn.set(canvas, key);
       }
     } catch {
-      // The list does without pictures.
+      // The list works without pictures.
     }
   }
 }

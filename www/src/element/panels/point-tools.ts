@@ -1,4 +1,4 @@
-/** The tools for placing support points and drain holes by hand: how many there are, the selected one, and all of them. */
+/** The tools for placing support points and drain holes by hand: their counts, the selected point, and actions on all of them. */
 import { css, html, nothing, svg, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { FACTS } from "../../api/facts.js";
@@ -32,13 +32,13 @@ import type { Settings } from "../state/settings.js";
 import { localised, read } from "../state/typed.js";
 import { lineIcon } from "../styles/shared.js";
 
-/** What is read and changed of a session. */
+/** The part of a session that the tools read and change. */
 export type Edited = Pick<
   Session,
   "settings" | "options" | "model" | "plate" | "result" | "isCurrent" | "busy" | "weights" | "canUndo" | "canRedo" | "undo" | "redo" | "change" | "write"
 >;
 
-/** The points that a tool places, and the place of the selected one. */
+/** The points of a tool, and the index of the selected one. */
 interface Shown {
   readonly list: readonly HandPoint[];
   readonly place: number | null;
@@ -46,16 +46,16 @@ interface Shown {
 
 const kindOf = (tool: Tool): PlacedKind => (tool === "drains" ? "drains" : "points");
 
-/** What somebody does with the points of a session. */
+/** Edits the points of a session. */
 export class PointEditor {
   readonly #session: Edited;
   readonly #slicer: Pick<Slicer, "plugs">;
   readonly #update: () => void;
-  /** The selected point: it keeps its place on the model, but not in the list. */
+  /** Key of the selected point, by its place on the model; its index in the list may change. */
   #selected: string | null = null;
   #drain_mm = FACTS.drain_mm;
   #edits = 0;
-  /** The last answer: another list would count as a change. */
+  /** The last list, cached, since a new one would count as a change. */
   #known: { readonly of: readonly unknown[]; readonly points: HandPoints } | null = null;
 
   constructor(session: Edited, slicer: Pick<Slicer, "plugs">, update: () => void) {
@@ -173,7 +173,7 @@ export class PointEditor {
     </label>`;
   }
 
-  /** Without weights there is nothing to keep off. */
+  /** Without weights there is nothing to avoid. */
   #spare(words: PlacingTexts): TemplateResult {
     const { weights, settings } = this.#session;
     const isPossible = weights !== null || settings.saliency === "on";
@@ -192,7 +192,7 @@ export class PointEditor {
     </div>`;
   }
 
-  /** Plugs for the holes of the plan, as soon as it has some. */
+  /** Button for the plugs of the plan's drain holes; absent while it has none. */
   #plugs(words: PlacingTexts): TemplateResult | typeof nothing {
     const { model, result, isCurrent, busy } = this.#session;
     if (model === null || (result?.own?.hollowed?.drains.length ?? 0) === 0) return nothing;
@@ -223,15 +223,15 @@ export class PointEditor {
     this.#update();
   }
 
-  /** Every edit is an undo step of its own. */
+  /** Every edit is a separate undo step. */
   #change({ supports, ...change }: Partial<Settings>): void {
-    // Whether there are supports holds for all models: the last point of one that goes leaves the others theirs.
+    // The setting `supports` applies to all models: removing the last point of one must not remove the supports of the others.
     const isShared = supports === "none" && this.#session.plate.entries.length > 1;
     this.#session.change({ ...change, ...(supports !== undefined && !isShared && { supports }) }, `points ${++this.#edits}`);
   }
 }
 
-/** The markers, as the view draws them. */
+/** Icons of the markers as drawn in the view. */
 const CIRCLE = svg`<circle cx="8" cy="8" r="4.5" />`;
 const SQUARE = svg`<rect class="locked" x="4" y="4" width="8" height="8" />`;
 const CROSS = svg`<circle class="unreached" cx="8" cy="8" r="4.5" /><path d="M5.5 5.5l5 5m0-5-5 5" />`;

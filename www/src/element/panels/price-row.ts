@@ -1,9 +1,9 @@
-/** What a result costs, by the prices of the page. */
+/** Price of a result by the page's prices. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Price } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 
-/** The total as a language writes amounts, with the digits that the core knows: browsers leave some out. */
+/** The total in the language's format, with the core's number of decimals: some browsers have other ones. */
 const money = ({ currency, digits, total }: Price, locale: string): string =>
   new Intl.NumberFormat(locale, { style: "currency", currency, minimumFractionDigits: digits, maximumFractionDigits: digits }).format(total / 10 ** digits);
 

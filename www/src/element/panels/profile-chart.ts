@@ -1,6 +1,6 @@
 /**
- * Puts the chart of chart.ts on the page: its size and colours, its key, the marker of the selected layer, and what mouse,
- * fingers and keys do. In a box of a given height it fills that; elsewhere it has its own.
+ * Embeds the chart of chart.ts: its size and colours, legend, marker of the selected layer, and input by mouse, touch and keyboard. It
+ * fills a box of given height; elsewhere it has its own height.
  */
 import { html, nothing, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
@@ -16,9 +16,9 @@ import { chartStyles } from "../styles/chart-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** The position of the chart and the heights that it shows. */
+/** Position of the chart and the range of heights that it shows. */
 export interface PlotPlace {
-  /** The plot area; the heights span it from its lower to its upper edge. */
+  /** Plot area, whose vertical extent is the range of heights. */
   over: HTMLElement;
   /** Lowest and highest, mm. */
   heights_mm: Heights;
@@ -26,23 +26,23 @@ export interface PlotPlace {
 
 const fetchLibrary = fetched(() => import("uplot"));
 
-/** How much a press of a key enlarges. */
+/** Zoom factor of a key press. */
 const KEY_ZOOM = 1.5;
-/** At least this many layers of the greatest thickness fit into a zoomed chart. */
+/** A zoomed chart spans at least this many layers of maximum thickness. */
 const LEAST_LAYERS = 4;
-/** Part of the largest density that has as many digits as any. */
+/** Fraction of the largest density whose label is as wide as any. */
 const MANY_DIGITS = 0.888;
-/** Layers that a page key moves by. */
+/** Number of layers that a page key moves by. */
 const PAGE = 10;
 
 const PROPERTIES = {
   data: given<ChartData | null>(null),
   layer: given(0),
-  /** The heights of the finding that is shown, mm. */
+  /** Height range of the chosen finding, mm. */
   mark: given<Heights | null>(null, (a, b) => String(a) !== String(b)),
   language: given(languageOf()),
   zoomed: own(false),
-  /** The bin under the pointer, or where somebody tapped. */
+  /** The bin under the pointer, or tapped. */
   hovered: own<number | null>(null),
   /** True if uPlot could not be loaded. */
   failed: own(false),
@@ -55,10 +55,10 @@ export class CuspChart extends elementWith(PROPERTIES) {
   #marker: HTMLElement | null = null;
   #range: HTMLElement | null = null;
   #resized: ResizeObserver | null = null;
-  /** The colours of the canvas are those of the page when it is drawn. */
+  /** The canvas is redrawn when these change the page's colours. */
   readonly #schemes = ["(prefers-color-scheme: dark)", "(forced-colors: active)"].map((query) => matchMedia(query));
   readonly #redraw = (): void => this.#build();
-  /** True if the last pointer was a finger: what it tapped stays, although browsers let their mouse of a finger leave at once. */
+  /** True if the last pointer was a touch: a tapped bin stays, although browsers send a leave event at once. */
   #isTouched = false;
   readonly #gestures = new ZoomGestures({
     shown: () => this.#shown,
@@ -160,7 +160,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
       ({ default: this.#library } = await fetchLibrary());
       this.failed = false;
     } catch (error) {
-      // uPlot could not be fetched, or does not start in this browser. Everything else works without it.
+      // uPlot could not be fetched, or fails in this browser. Everything else works without it.
       this.failed = true;
       tellPartFailed(this, "chart", error);
       return;
@@ -178,21 +178,21 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return frame;
   }
 
-  /** The density of a bin, with its height. */
+  /** Density of a bin and its height, as text. */
   #at({ metric, bin_mm }: ChartData, bin: number, density: number): string {
     const { texts, format } = this.language;
     const value = METRICS[metric].density(density, format);
     return texts.chart.at(format.height((bin + 0.5) * bin_mm), texts.metrics[metric].density(value));
   }
 
-  /** The selected layer in words. */
+  /** Description of the selected layer. */
   #value({ z_mm, thickness_mm }: ChartData): string {
     const { layer, language: { texts, format } } = this;
     const [z, thickness] = [format.height(z_mm[layer] ?? 0), format.height(thickness_mm[layer] ?? 0)];
     return texts.mask.said(format.count(layer + 1), format.count(thickness_mm.length), z, thickness);
   }
 
-  /** The chart in words, for screen readers. */
+  /** Description of the chart for screen readers. */
   #words(): string {
     const { texts, format } = this.language;
     if (this.data === null) return texts.chart.none;
@@ -216,7 +216,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     const whole = this.#whole;
     options.hooks = {
       ...options.hooks,
-      // When uPlot draws, initially or after a zoom, its scales are settled.
+      // When uPlot draws, initially or after a zoom, its scales are set.
       draw: [
         (u) => {
           const { min, max } = u.scales["x"] ?? {};
@@ -243,7 +243,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     this.#mark();
   };
 
-  /** Reports the chart's position and heights to the view beside it, which aligns with them. */
+  /** Reports the chart's position and heights to the neighbouring view, which aligns with them. */
   #place(heights_mm: Heights): void {
     if (this.#plot === null) return;
     const detail: PlotPlace = { over: this.#plot.over, heights_mm };
@@ -266,31 +266,31 @@ export class CuspChart extends elementWith(PROPERTIES) {
     this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layer }));
   }
 
-  /** The height of the profile, mm. */
+  /** Height of the profile, mm. */
   get #whole(): number {
     return this.data === null ? 0 : this.data.profile.length * this.data.bin_mm;
   }
 
-  /** The heights on show. */
+  /** Visible range of heights. */
   get #shown(): Heights {
     const { min, max } = this.#plot?.scales["x"] ?? {};
     return min == null || max == null ? [0, this.#whole] : [min, max];
   }
 
-  /** The middle of the selected layer, mm. */
+  /** Middle of the selected layer, mm. */
   get #middle(): number {
     const { data, layer } = this;
     return data === null ? 0 : ((data.z_mm[layer] ?? 0) + (data.z_mm[layer + 1] ?? 0)) / 2;
   }
 
-  /** Shows the heights `from`, enlarged by a factor and moved so that a height lies at a place: see {@link zoomHeights}. */
+  /** Shows the heights `from`, zoomed by a factor so that `z_mm` is at `place`; see {@link zoomHeights}. */
   #zoom(factor: number, z_mm: number, place: number, from = this.#shown): void {
     const thickest_mm = this.data?.limits[1] ?? 0;
     const [min, max] = zoomHeights(from, factor, z_mm, place, this.#whole, Math.min(this.#whole, LEAST_LAYERS * thickest_mm));
     this.#plot?.setScale("x", { min, max });
   }
 
-  /** The place of a point on the screen, 0 the lower and 1 the upper edge of the plot, and its height. */
+  /** Position of a screen point in the plot, 0 at the lower and 1 at the upper edge, and its height. */
   #under(clientY: number): [place: number, z_mm: number] {
     const { bottom = 0, height = 1 } = this.#plot?.over.getBoundingClientRect() ?? {};
     const [low, high] = this.#shown;
@@ -298,14 +298,14 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return [place, low + place * (high - low)];
   }
 
-  /** Moves heights that are zoomed to where the selected layer is. */
+  /** Scrolls zoomed heights to the selected layer. */
   #reveal(): void {
     const [low, high] = this.#shown;
     if (this.#middle < low || this.#middle > high) this.#zoom(1, this.#middle, 0.5);
   }
 
   readonly #showWhole = (): void => {
-    // The button hides.
+    // The reset button disappears, so the focus moves.
     this.#frame.focus({ preventScroll: true });
     this.#plot?.setScale("x", { min: 0, max: this.#whole });
   };
@@ -315,7 +315,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     if (data === null || event.ctrlKey || event.metaKey || event.altKey) return;
     const last = data.thickness_mm.length - 1;
     const [low, high] = this.#shown;
-    // Around the selected layer, which #reveal keeps on show.
+    // Zooms around the selected layer, which #reveal keeps visible.
     const zoom = (factor: number): void => this.#zoom(factor, this.#middle, (this.#middle - low) / (high - low));
     const move = (to: number): void => this.#select(Math.min(last, Math.max(0, to)));
     const actions: Partial<Record<string, () => void>> = {
@@ -355,7 +355,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     marker.style.transform = `translateY(${Math.round(top) - 1}px)`;
   }
 
-  /** Marks the heights of the finding, as far as they are on show. */
+  /** Marks the visible heights of the chosen finding. */
   #span(plot: uPlot): void {
     const [range, mark] = [this.#range, this.mark];
     if (range === null) return;
@@ -368,7 +368,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
 
   #theme(): ChartTheme {
     const style = getComputedStyle(this);
-    // A canvas does not accept `light-dark()`: let an element resolve each custom property.
+    // Canvas does not accept `light-dark()`, so an element resolves each custom property.
     const probe = document.createElement("span");
     probe.style.setProperty("forced-color-adjust", "none");
     this.#frame.append(probe);

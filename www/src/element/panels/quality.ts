@@ -1,4 +1,4 @@
-/** The trade-off curve as a picture and a slider: each notch is a best plan, fastest first. */
+/** The trade-off curve as a picture with a slider; each notch is a best plan, fastest first. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { TradeoffPoint } from "../../api/wire.js";
@@ -10,7 +10,7 @@ import type { Result } from "../state/result.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given } from "../../view/properties.js";
 
-/** The picture's own units; it is stretched to fit its box. */
+/** Internal units of the picture, which is stretched to fit its box. */
 const WIDTH = 400;
 const HEIGHT = 120;
 const MARGIN = 12;
@@ -21,7 +21,7 @@ export interface Mark {
 }
 
 export interface Picture {
-  /** A dot for each point of the curve, the loosest first: notch i of the slider. */
+  /** Points of the curve, the loosest first: dot i belongs to notch i. */
   dots: Mark[];
   own: Mark;
   finest: Mark;
@@ -29,8 +29,8 @@ export interface Picture {
 }
 
 /**
- * Positions in the picture: each point above its notch, finer plans to the right, longer print times at the top. A plan that
- * is not a point lies between the two points whose errors enclose its own.
+ * Positions in the picture: each point above its notch, finer plans to the right, longer print times at the top. A plan that is not a point
+ * lies between the two points whose errors enclose its own.
  */
 export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "report">): Picture {
   const { finest, coarsest } = report.uniform;
@@ -43,7 +43,7 @@ export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "
   return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
 }
 
-/** The shortest and the longest print time in the picture: its bottom and its top. */
+/** Shortest and longest print time: the lower and the upper edge of the picture. */
 function timesOf(points: readonly Planned[], report: Result["report"]): [number, number] {
   const times = [...points, report, report.uniform.finest, report.uniform.coarsest].map(({ print_time_s }) => print_time_s);
   return [Math.min(...times), Math.max(...times)];

@@ -1,6 +1,6 @@
 /**
- * The settings as a form. It keeps no settings: it shows those that it is given, with the decimal mark of the language, and
- * reports what is typed in canonical form. What is typed stays on the screen as it is until the field is left.
+ * The settings form. It is stateless: it shows the settings that it is given, with the decimal mark of the language, and reports input in
+ * canonical form. The text of a field stays as typed until the field loses focus.
  */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
@@ -19,45 +19,45 @@ import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** Settings that are hidden at first, unless one differs from its default. */
+/** Settings that are initially hidden, unless one differs from its default. */
 const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
 
-/** The fields that a form shows: all, or those of a step of the workbench. */
+/** The fields of a form: all, or those of one step of the workbench. */
 export type Fields = "all" | "hollow" | "supports" | "slice";
 
 const STRENGTHS = ["none", "light", "medium", "heavy"] as const;
 
-/** Returns true if the form shows the field of a problem, so that the problem can be shown beside it. */
+/** Returns true if the form contains the field of a problem, which can then be shown next to it. */
 export function hasPlace({ field }: Problem, { printer }: Settings, { printers }: Offered): boolean {
   if (field === null) return false;
   if (field === "printer") return printers.length > 0;
   return field !== "rays" || printer === "";
 }
 
-/** The units of files; the first is that of files that state none. */
+/** Units of files; the first applies to files that state none. */
 const UNITS = ["millimeter", "inch", "centimeter", "meter", "foot", "micron"] as const satisfies readonly ModelUnit[];
 
-/** Options of the list of printers that are no names. */
+/** Values of the list of printers that are not names. */
 const OWN = "{}";
 const OPEN = "{…}";
 
-/** What a list has besides its options. */
+/** Optional parts of a list. */
 interface Choosing {
   hint?: string;
-  /** The chosen option, if it is not the setting itself. */
+  /** The selected option, if not the setting itself. */
   value?: string;
-  /** What a choice does, if it does not set the setting. */
+  /** Handles a choice that does not set the setting directly. */
   change?: (value: string) => void;
-  /** The chosen option in full, if it may be too long for the list's width. */
+  /** Full name of the selected option, if it may be too long for the list. */
   title?: string;
-  /** Shown below. */
+  /** Content below the list. */
   more?: TemplateResult | typeof nothing;
 }
 
-/** What a typed field has besides its name. */
+/** Optional parts of a text field. */
 interface Typing {
   hint?: string;
-  /** Canonical, as the value is. */
+  /** In canonical form, like the value. */
   placeholder?: string;
 }
 
@@ -69,25 +69,25 @@ const PROPERTIES = {
   settings: given(DEFAULT_SETTINGS),
   faults: given<Faults>({}),
   info: given<MeshInfo | null>(null),
-  /** The tolerance that the core chose because none is typed; null if unknown. */
+  /** The tolerance that the core chose by default; null if unknown. */
   taken: given<number | null>(null),
   offered: given<Offered>({ printers: [], resins: [] }),
   /** Settings that are shown read-only. */
   fixed: given<ReadonlySet<keyof Settings>>(new Set()),
-  /** A failure that one of these settings caused, to be shown beside that setting. */
+  /** Failure caused by one of these settings, shown next to it. */
   problem: given<Problem | null>(null),
   towers: given<TowersState>("waiting"),
   language: given(languageOf()),
-  /** True if the description of one's own printer is to be opened. */
+  /** True while the button that opens a custom printer's description is shown. */
   isOpening: own(false),
 };
 
 export class CuspSettings extends elementWith(PROPERTIES) {
-  /** True if the hidden settings are expanded at first; null before any settings are given. */
+  /** True if the hidden settings start expanded; null before any settings are given. */
   #moreAtFirst: boolean | null = null;
-  /** The last printer of one's own. */
+  /** The last custom printer. */
   #own: Printer | null = null;
-  /** What was typed in fields, as it was, and the setting that it gave. */
+  /** Text of each field as typed, with the resulting setting. */
   readonly #typed = new Map<Field, { text: string; said: string }>();
 
   static override styles = [shared, problemStyles, settingsStyles];
@@ -95,10 +95,10 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   override willUpdate(changed: PropertyValues<this>): void {
     if (typeof this.settings.printer === "object") this.#own = this.settings.printer;
     for (const [field, { said }] of this.#typed) {
-      // Changed from elsewhere: undone, offered, or set by a slider.
+      // Changed elsewhere: by undo, an offer or a slider.
       if (changed.has("settings") && this.#setting(field) !== said) this.#typed.delete(field);
     }
-    // Settings changed by the URL must be visible. After that, the user expands and collapses them.
+    // Settings from the URL must be visible. Afterwards the user expands and collapses them.
     if (!changed.has("settings") || this.#moreAtFirst !== null) return;
     this.#moreAtFirst = MORE.some((key) => (key !== "wall" || this.fields === "all") && this.settings[key] !== DEFAULT_SETTINGS[key]);
   }
@@ -155,18 +155,18 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return minimize === "time" ? words.quickestHint : words.fewestHint;
   }
 
-  /** The printers by maker. One's own stays in the list while another is chosen. */
+  /** Printers by maker. A custom one stays in the list while another is chosen. */
   #printer(): TemplateResult {
     const { settings, offered, language, isOpening } = this;
     const words = language.texts.settings;
     const value = isOpening ? OPEN : typeof settings.printer === "string" ? settings.printer : OWN;
-    // Each part has its place, so that no option becomes another one.
+    // Each group has a fixed place, so that no option turns into another.
     const list = html`${options([["", words.noPrinter]], value)}
       ${this.#own === null ? nothing : options([[OWN, modelOf(this.#own)]], value)}
       ${options([[OPEN, words.ownPrinter]], value)}
       ${byMaker(offered.printers).map(([maker, models]) => html`<optgroup label=${maker}>${options(models, value)}</optgroup>`)}`;
     const change = (value: string): void => {
-      // Not a file dialog at once: arrow keys change a closed list, too.
+      // Shows a button rather than a file dialog: arrow keys also change a closed list.
       this.isOpening = value === OPEN;
       if (!this.isOpening) this.#say(withPrinter(settings, value === OWN ? (this.#own ?? "") : value));
     };
@@ -190,7 +190,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     );
   }
 
-  /** The button that opens the description of one's own printer. */
+  /** Button that opens a printer description. */
   #opener(): TemplateResult {
     const open = ({ target }: Event): void => {
       const [file] = (target as HTMLInputElement).files ?? [];
@@ -232,7 +232,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("format", words.format, list, { value, change, hint: value === "" ? words.formats[usual] : "" });
   }
 
-  /** The unit of a file that states none. */
+  /** Unit of a file that states none. */
   #unit(): TemplateResult | typeof nothing {
     const { settings: { unit }, info } = this;
     if (info === null || (info.unit ?? null) !== null) return nothing;
@@ -242,7 +242,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("unit", words.unit, list, { value: unit || UNITS[0], change });
   }
 
-  /** Settings that few users need. */
+  /** Rarely used settings. */
   #more(isUniform: boolean): TemplateResult {
     const words = this.language.texts.settings;
     const { bottom_layers, bottom_exposure_s } = this.#cure;
@@ -278,7 +278,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("supports", words.supports, options(list, supports), { hint: words.supportsHint });
   }
 
-  /** Walls make a model hollow; what is in it and how it drains is asked then. */
+  /** Hollowing. Infill and drain holes appear once a wall thickness is set. */
   #hollow(): TemplateResult {
     const { wall, infill, drain } = this.settings;
     const words = this.language.texts.settings;
@@ -289,7 +289,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       ${this.#select("drain", words.drain, options([["auto", words.autoDrain], ["none", words.noDrain]], drain))}`;
   }
 
-  /** The tolerance, with what it means, or why the core took another than usual. */
+  /** The tolerance, with its meaning, or the reason for which the core chose another than usual. */
   #tolerance(): TemplateResult {
     const { settings: { metric, format: file, nozzle }, taken } = this;
     const { texts, format } = this.language;
@@ -299,7 +299,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken, file, nozzle) });
   }
 
-  /** The setting of a field; undefined for a tolerance that nobody has typed. */
+  /** Setting of a field; undefined for a tolerance not typed. */
   #setting(field: Field): string | undefined {
     const { settings } = this;
     return field === "tolerance" ? settings.tolerances[settings.metric] : settings[field];
@@ -308,7 +308,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   #field(field: Field, label: string, { hint = "", placeholder = "" }: Typing = {}): TemplateResult {
     const { settings, language: { format } } = this;
     const unit = unitOf(field, settings.metric);
-    // A tolerance is shown although nobody has typed it, so that it can be judged.
+    // A default tolerance is also shown, so that the user can judge it.
     const value = this.#typed.get(field)?.text ?? localised(this.#setting(field) ?? placeholder, format.decimal);
     const fault = this.faults[field];
     const isFixed = this.fixed.has(field === "tolerance" ? "tolerances" : field);
@@ -323,7 +323,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     };
     const left = ({ target }: Event): void => {
       const { value: text } = target as HTMLInputElement;
-      // A text that cannot be read stays as it is, to be mended.
+      // Unreadable input stays for correction.
       if (text.trim() !== "" && read(text, unit, format.decimal).value === null) return;
       this.#typed.delete(field);
       this.requestUpdate();
@@ -372,7 +372,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** The hint below a field; if that is fixed, it starts with why. */
+  /** Hint below a field; if fixed, preceded by the reason. */
   #hint(hint: string, isFixed: boolean): string {
     return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
   }
@@ -403,7 +403,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </fieldset>`;
   }
 
-  /** The problem that this field caused, with its offers. */
+  /** The problem caused by this field, with its offers. */
   #beside(field: Problem["field"]): TemplateResult | typeof nothing {
     const { problem, language } = this;
     if (problem === null || problem.field !== field) return nothing;

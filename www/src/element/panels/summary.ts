@@ -1,4 +1,4 @@
-/** A result in figures: layers, print time, what that saves, and the uniform layers to compare. */
+/** Figures of a result: layers, print time, savings, and a comparison with uniform layers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../../api/facts.js";
 import type { Language } from "../../texts/index.js";
@@ -162,10 +162,7 @@ export const summaryStyles = css`
   }
 `;
 
-/**
- * The figures of a result and what it gains. `shown` has the figures to show: those of a preview while the model is being
- * turned.
- */
+/** Figures of a result and its savings. `shown` provides the figures, from a preview while the model is being turned. */
 export function figures(result: Result, shown: Pick<Shown, "layers" | "print_time_s">, language: Language): TemplateResult {
   const { report } = result;
   const { texts, format } = language;
@@ -181,13 +178,13 @@ export function figures(result: Result, shown: Pick<Shown, "layers" | "print_tim
   </div>`;
 }
 
-/** The plan between the uniform layers that it is compared with. */
+/** Table that compares the plan with uniform layers. */
 export function comparison(result: Result, { texts, format }: Language): TemplateResult {
   const { report } = result;
   const compared = rows(result);
   const most = Math.max(...compared.map(({ layers }) => layers));
   const { columns } = texts.plan;
-  // The times of exposures mean nothing to a filament printer.
+  // Exposure times do not apply to filament printers.
   const isResin = !isFilament(report.print_file.format);
   return html`<div class="comparison">
     <table>
@@ -220,7 +217,7 @@ export function comparison(result: Result, { texts, format }: Language): Templat
 
 const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 
-/** How the result was computed, in a section that is collapsed at first. */
+/** Details of the computation, in a section that is initially collapsed. */
 export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
   const { mask, metric, timings_ms } = report;
   const error = (value: number): string => METRICS[metric].error(value, format);

@@ -1,4 +1,4 @@
-/** The bar of the 3-D view: its modes, one at a time, and its switches. */
+/** Toolbar of the 3-D view: exclusive modes, and switches. */
 import { css, html, nothing, svg, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Tool } from "../../view/scene/keys.js";
@@ -6,21 +6,21 @@ import type { Tool } from "../../view/scene/keys.js";
 export interface ViewBar {
   readonly tool: Tool;
   readonly isPrinted: boolean;
-  /** True if the distances from the model are shown. */
+  /** True if the colours show distances from the model. */
   readonly isMeasured: boolean;
-  /** True if colours are safe for the colour-blind. */
+  /** True for colours that are safe for colour-blind viewers. */
   readonly isSafe: boolean;
   readonly isAligned: boolean;
   /**
-   * Whether the chart is beside the view; null without a chart. Elsewhere its switch keeps its place, unseen: if the bar changed
-   * its height with it, the chart could be beside the view only as long as it is not.
+   * True if the chart is next to the view; null without a chart. If false, its switch is hidden but keeps its space: otherwise the bar's
+   * height, and with it the layout that decides this, would oscillate.
    */
   readonly isBeside: boolean | null;
-  /** True if the model stands otherwise than in its file. */
+  /** True if the model is rotated from its orientation in the file. */
   readonly isTurned: boolean;
   /** True if there is a 3-D view. */
   readonly isPossible: boolean;
-  /** The tools that there is something for, besides those that there always is. */
+  /** Available tools besides those in `ALWAYS`. */
   readonly offered: ReadonlySet<Tool>;
   readonly language: Language;
   chosen(tool: Tool): void;
@@ -34,7 +34,7 @@ export interface ViewBar {
 const TOOLS: readonly Tool[] = ["turn", "move", "rotate", "flat", "paint", "supports", "drains"];
 const ALWAYS: ReadonlySet<Tool> = new Set(["turn", "rotate", "flat", "paint"]);
 
-/** Drawn in a square of 20 units. */
+/** SVG paths in a square of 20 units. */
 const ICONS = {
   turn: "M2 10s3-5 8-5 8 5 8 5-3 5-8 5-8-5-8-5zM12.5 10a2.5 2.5 0 1 1-5 0 2.5 2.5 0 0 1 5 0z",
   move: "M10 2.5v15M2.5 10h15M7.5 5 10 2.5 12.5 5M7.5 15l2.5 2.5 2.5-2.5M5 7.5 2.5 10 5 12.5M15 7.5l2.5 2.5-2.5 2.5",
