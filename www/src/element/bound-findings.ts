@@ -1,4 +1,4 @@
-/** The panel of findings, bound to a session. It is fetched when somebody first wants to know. */
+/** The findings panel, bound to a session. Its code is fetched when a user first opens it. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
 import { FetchedPanel } from "./parts/part.js";

@@ -1,4 +1,4 @@
-/** The panels, bound to a session: what each shows of it, and what it changes there. Layouts put them in their places. */
+/** The panels, bound to a session: each with the state that it shows and the changes that it makes. Layouts position them. */
 import { html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../api/facts.js";
 import type { Candidate, Finding } from "../api/wire.js";
@@ -28,7 +28,7 @@ import type { Session } from "./state/session.js";
 import { quaternion, type Settings } from "./state/settings.js";
 import { shown } from "../api/visible.js";
 
-/** @param problem a failure that one of the settings caused, to be shown beside that setting */
+/** @param problem failure caused by one of the settings, to show next to that setting */
 export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null, fields: Fields = "all"): TemplateResult {
   return html`<cusp-settings
     .fields=${fields}
@@ -48,7 +48,7 @@ export function settingsPanel({ session, language, saveTowers }: Facts, problem:
   ></cusp-settings>`;
 }
 
-/** The buttons that undo and redo changes of the settings. */
+/** Undo and redo buttons for the settings. */
 export function undoButtons({ session, language }: Facts): TemplateResult {
   return html`<div class="steps">${stepButtons(session, language)}</div>`;
 }
@@ -89,7 +89,7 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
   ></cusp-model>`;
 }
 
-/** @param placed hears where the plot is; otherwise the view beside it does */
+/** @param placed receives the position of the plot; by default passes it to the view next to it */
 export function chartPanel({ session, language }: Facts, placed = besideView): TemplateResult {
   return html`<cusp-chart
     .data=${session.shown}
@@ -101,7 +101,7 @@ export function chartPanel({ session, language }: Facts, placed = besideView): T
   ></cusp-chart>`;
 }
 
-/** Few people search for an orientation, and the sphere of directions is a good part of the code. */
+/** Fetched on demand: few people search for an orientation, and the sphere of directions is a large part of the code. */
 const orientationCode = new FetchedPanel("orientation", () => import("./panels/orientation-panel.js"), ({ defineOrientation }) => defineOrientation());
 
 export function orientationPanel({ element, session, language }: Facts): TemplateResult | typeof nothing {
@@ -130,7 +130,7 @@ export function qualityPanel({ session, language }: Facts, result: Result): Temp
   ></cusp-quality>`;
 }
 
-/** On the page its tab is not the first, and its picture brings a good part of the code. */
+/** Fetched on demand: the page shows this tab later, and its image code is large. */
 const maskCode = new FetchedPanel("mask", () => import("./panels/mask-view.js"), ({ CuspMask }) => define("cusp-mask", CuspMask));
 
 export function maskPanel({ element, session, language }: Facts, result: Result): TemplateResult | typeof nothing {
@@ -152,15 +152,15 @@ export function downloadButton({ session, language: { texts }, save }: Facts): T
   </button>`;
 }
 
-/** What the print file is, and what has not been added to the model. */
+/** The note on the print file: its format, and the preparation of the model. */
 export function fileLine({ session, language }: Facts, result: Result): TemplateResult {
   return html`<p id="file" class="quiet">${fileWords(result, session.printers, language)}</p>`;
 }
 
-/** The note on a result that is not for the settings shown. */
+/** Note that the result is not for the settings shown. */
 export function earlierNote({ session, problem, language: { texts } }: Facts): TemplateResult | typeof nothing {
   if (!session.earlier) return nothing;
-  // Without a fault or a problem, the plan was cancelled: only then does trying again help.
+  // With a fault or a problem, trying again cannot help; after a cancel, it can.
   const again = Object.keys(session.faults).length === 0 && problem === null;
   return html`<p class="earlier">
     ${texts.plan.earlier}
@@ -168,7 +168,7 @@ export function earlierNote({ session, problem, language: { texts } }: Facts): T
   </p>`;
 }
 
-/** The notice that is no failure, if there is one. */
+/** The current notice, if any, which is not a failure. */
 export function noticeBox({ session, language: { texts } }: Facts): TemplateResult | typeof nothing {
   if (session.notice === null) return nothing;
   return html`<section class="message notice">
@@ -177,7 +177,7 @@ export function noticeBox({ session, language: { texts } }: Facts): TemplateResu
   </section>`;
 }
 
-/** For screen readers: the start and the outcome of a task, not every step. */
+/** Announces the start and the outcome of a task to screen readers, not every step. */
 export function announcement({ session, language }: Facts): TemplateResult {
   return html`<p class="visually-hidden" role="status" aria-live="polite">${announced(session, language)}</p>`;
 }
@@ -192,18 +192,18 @@ function announced({ busy, result, notice, earlier }: Session, language: Facts["
   return `${planned} ${sentence(result, language)}`;
 }
 
-/** The session reports the weights, and the element fires the event again. */
+/** The session reports the weights, and the element then fires its own event. */
 function painted(session: Session, event: CustomEvent<Painted>): void {
   session.setWeights(event.detail.weights, event.detail.final);
 }
 
-/** Passes the chart's position and heights to the view beside it. */
+/** Passes the chart's position and heights to the view next to it. */
 export function besideView({ target, detail }: CustomEvent<PlotPlace>): void {
   const view = beside(target, "cusp-model");
   if (view !== null) view.plot = detail;
 }
 
-/** Passes the view's camera to the orientation panel beside it. */
+/** Passes the view's camera to the orientation panel next to it. */
 function seen({ target, detail }: CustomEvent<Rotation>): void {
   const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.camera = detail;
@@ -214,7 +214,7 @@ function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
   if (panel !== null) panel.palette = detail;
 }
 
-/** Takes up a tool of the view beside. */
+/** Activates a tool of the neighbouring 3-D view. */
 export function takeUp(target: EventTarget | null, tool: Tool): void {
   const view = beside(target, "cusp-model");
   if (view !== null) view.tool = tool;
@@ -241,10 +241,10 @@ function rotationOf(text: string): Rotation {
   return rotation;
 }
 
-/** A requested height, or the one that a unit gives, is that of the model in its pose, or in the one that it is being turned to. */
+/** Scale of the model: a requested height, or the one implied by a unit, applies to its current pose, or to the pose being turned to. */
 function scaledOf({ result, turning, shown, plate }: Session): Scaled | null {
   if (result === null || (result.options.height_mm === undefined && result.options.unit === undefined)) return null;
-  // A plate is as high as the highest of its models.
+  // The height of a plate is that of its highest model.
   const own_mm = plate.heightOf(plate.selected);
   if (own_mm !== null) return { height_mm: own_mm, rotation: result.options.rotation ?? UPRIGHT };
   const { report } = result;

@@ -1,4 +1,4 @@
-/** What layouts have for several models: copies, the button that adds a model, and the list, fetched with the second copy. */
+/** Layout parts for several models: the copies field, the button that adds a model, and the list, fetched with the second copy. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
 import { MODEL_FILES } from "./state/choice.js";
@@ -13,7 +13,7 @@ function addButton({ language, added }: Facts): TemplateResult {
   </label>`;
 }
 
-/** The number of copies of the only model, or the list of all. */
+/** The copies field of a single model, or the list of all models. */
 export function platePanel(facts: Facts): TemplateResult | typeof nothing {
   const { element, session, language, saveAll } = facts;
   const { plate, busy, failure } = session;

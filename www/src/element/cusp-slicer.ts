@@ -1,5 +1,5 @@
 /**
- * `<cusp-slicer>`: a model in its layers, a choice of quality, the print time, the amount of resin, and the print file.
+ * `<cusp-slicer>`: shows a model in its layers, a choice of quality, the print time and amount of resin, and offers the print file.
  *
  * Everything runs in the customer's browser. See docs/embed.md for attributes, events, colours and parts.
  */
@@ -25,7 +25,7 @@ export class CuspSlicer extends SlicerElement {
   }
 }
 
-/** From this width on, the settings are beside the results and expanded. */
+/** Minimum width for settings next to the results, and expanded. */
 const WIDE_PX = 896;
 
 declare global {

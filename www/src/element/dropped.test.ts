@@ -1,7 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
 import { takeDrop } from "./dropped.js";
 
-/** A folder by the names in it: null for a file, and an object for a folder. */
+/** A folder as an object of entries by name; null for a file. */
 interface Tree {
   readonly [name: string]: Tree | null;
 }
@@ -9,7 +9,7 @@ interface Tree {
 const entryOf = (name: string, tree: Tree | null): unknown => {
   if (tree === null) return { name, isDirectory: false, file: (resolve: (file: File) => void) => resolve(new File([], name)) };
   const parts = Object.entries(tree).map(([name, part]) => entryOf(name, part));
-  // Browsers give a hundred at a time; here it is one.
+  // Browsers return up to a hundred at a time, this fake one.
   const createReader = (): unknown => {
     const left = [...parts];
     return { readEntries: (resolve: (entries: unknown[]) => void) => resolve(left.splice(0, 1)) };
@@ -17,7 +17,7 @@ const entryOf = (name: string, tree: Tree | null): unknown => {
   return { name, isDirectory: true, createReader };
 };
 
-/** A transfer as browsers have it: only in the event itself, and a folder is among the files, too. */
+/** Fake transfer that behaves as in browsers: it is readable only during the event, and lists folders among the files. */
 function drop(tree: Tree, link = ""): DataTransfer {
   const items = Object.entries(tree).map(([name, part]) => ({ kind: "file", webkitGetAsEntry: () => entryOf(name, part), getAsFile: () => new File([], name) }));
   const strings = link === "" ? [] : [{ kind: "string", webkitGetAsEntry: () => null, getAsFile: () => null }];

@@ -1,17 +1,17 @@
-/** What somebody drops: files, the models of folders, or a link. */
+/** Reads a drop: files, the models in folders, or a link. */
 import { said, SlicerError } from "../api/error.js";
 import { isNamedAsModel } from "./state/choice.js";
 
 export interface DropHost {
   open(files: readonly File[]): void;
-  /** Nothing of it can be opened; the name is what it is called. */
+  /** Called if nothing of the drop can be opened; `name` is that of the folder or link. */
   refuse(error: SlicerError, name: string): void;
 }
 
-/** Entries of folders that are looked at: whoever drops more of them dropped more than models. */
+/** Maximum number of folder entries to read; a larger drop is not just models. */
 const MOST_ENTRIES = 10_000;
 
-/** To be called in the event: afterwards nothing is left of the transfer. */
+/** Reads a drop. Must be called during the event, after which the browser empties the transfer. */
 export function takeDrop(transfer: DataTransfer | null, { open, refuse }: DropHost): void {
   if (transfer === null) return;
   const items = [...transfer.items].map((item) => ({ entry: item.webkitGetAsEntry(), file: item.getAsFile() }));
@@ -36,7 +36,7 @@ export function takeDrop(transfer: DataTransfer | null, { open, refuse }: DropHo
   refuse(new SlicerError("dropped-link", "a link was dropped"), host || protocol);
 }
 
-/** The models of folders and of those within, each folder in the order of their names. */
+/** All models in these folders and their subfolders, sorted by name within each. */
 async function modelsIn(folders: readonly FileSystemDirectoryEntry[]): Promise<File[]> {
   const files: File[] = [];
   const waiting = [...folders];
@@ -57,7 +57,7 @@ const isFolder = (entry: FileSystemEntry | null): entry is FileSystemDirectoryEn
 
 const COLLATOR = new Intl.Collator(undefined, { numeric: true });
 
-/** Browsers give some at a time, and none at the end. */
+/** Browsers return entries in batches, and an empty batch at the end. */
 async function entriesOf(folder: FileSystemDirectoryEntry): Promise<FileSystemEntry[]> {
   const reader = folder.createReader();
   const entries: FileSystemEntry[] = [];

@@ -10,19 +10,19 @@ export interface ProgressDetail {
   fraction: number;
   /** 0 to 1 within the task. */
   done: number;
-  /** Estimated seconds left; null while it is too early to tell. */
+  /** Estimated seconds left; null while too early to estimate. */
   left_s: number | null;
 }
 
 export interface ChangeDetail {
-  /** The settings as a URL query: see the property `query`. */
+  /** The settings as a URL query; see the property `query`. */
   query: string;
 }
 
 export interface Painted {
-  /** How much each facet matters, 0 to 1; null: all equally. */
+  /** Importance of each facet, 0 to 1; null: all equal. */
   weights: Float32Array | null;
-  /** False while a brush stroke continues. */
+  /** False during a brush stroke. */
   final: boolean;
 }
 
@@ -31,14 +31,14 @@ export interface CuspSlicerEvents {
   "cusp-load": CustomEvent<Model>;
   /** A new plan is ready. */
   "cusp-plan": CustomEvent<Plan>;
-  /** What the plan costs by the property `prices` is known. */
+  /** The plan was priced by the property `prices`. */
   "cusp-price": CustomEvent<Price>;
-  /** A plan was checked for what will fail when it is printed: while a panel shows that, or with the property `limits`. */
+  /** A plan was checked for printing faults: while a panel shows the findings, or if the property `limits` is set. */
   "cusp-check": CustomEvent<Check>;
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** The download button was pressed. Cancelable: `preventDefault()` keeps the browser from saving the print file. */
   "cusp-export": CustomEvent<PrintFile>;
-  /** Something failed. The element shows it too, except for a `bad-attribute`, which concerns the page's developer. */
+  /** An operation failed. The element also shows the error, except a `bad-attribute`, which concerns the page's developer. */
   "cusp-error": CustomEvent<SlicerError>;
   /** The user or a script changed the weights. */
   "cusp-paint": CustomEvent<Painted>;

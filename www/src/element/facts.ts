@@ -1,4 +1,4 @@
-/** What a layout of an element's panels is a function of. */
+/** The input of a layout: state and actions of the element. */
 import type { LitElement } from "lit";
 import type { Slicer } from "../api/index.js";
 import type { Language } from "../texts/index.js";
@@ -10,7 +10,7 @@ export interface Facts {
   element: LitElement;
   session: Session;
   language: Language;
-  /** The session's failure in words; null if there is none. */
+  /** The session's failure, explained; null if there is none. */
   problem: Problem | null;
   panels: ReadonlySet<Panel>;
   slicer: Slicer;

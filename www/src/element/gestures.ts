@@ -2,7 +2,7 @@
 import { takeDrop, type DropHost } from "./dropped.js";
 
 export interface Gestures extends DropHost {
-  /** Files are dragged over the element, or have left it. */
+  /** Called when files are dragged over the element, and when they leave it. */
   dragging(isOver: boolean): void;
   cancel(): void;
   undo(): void;

@@ -12,7 +12,7 @@ const textOf = (path: string): Promise<string> => readFile(fileURLToPath(new URL
 
 const guide = await textOf("../../../docs/embed.md");
 
-/** The rows of the table under a heading, cell by cell. */
+/** Rows of the table under a heading, split into cells. */
 function rowsOf(heading: string): string[][] {
   const [, table = ""] = guide.split(`| ${heading} |`);
   const lines = table.split("\n").slice(2);
@@ -20,7 +20,7 @@ function rowsOf(heading: string): string[][] {
   return lines.slice(0, end).map((line) => line.split("|").slice(1, -1).map((cell) => cell.trim()));
 }
 
-/** The texts between backticks in a cell. */
+/** Texts between backticks in a cell. */
 const codesIn = (cell = ""): string[] => [...cell.matchAll(/`([^`]+)`/g)].map(([, code = ""]) => code);
 
 const rows = rowsOf("attribute | property |");

@@ -1,4 +1,4 @@
-/** The element without its registration, for pages that register it under a name of their own. */
+/** The element without its registration, for pages that register it under their own name. */
 export { CuspSlicer } from "./cusp-slicer.js";
 export type { ModelOnPlate, State } from "./slicer-element.js";
 export type { ChangeDetail, CuspSlicerEvents, ProgressDetail } from "./events.js";

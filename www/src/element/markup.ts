@@ -1,6 +1,6 @@
 /**
- * Types for the element in the markup of frameworks: its properties, attributes and listeners. They derive from the list of
- * properties and from the events, so that nothing is listed twice.
+ * Types of the element's properties, attributes and listeners in the markup of frameworks. Derived from the list of properties and from the
+ * events, so that nothing is listed twice.
  */
 import type { CuspSlicer } from "./cusp-slicer.js";
 import type { CuspSlicerEvents } from "./events.js";
@@ -11,7 +11,7 @@ type AttributeOf<Name extends PropertyName> = (typeof PROPERTIES)[Name] extends 
 /** Numbers may be written as text. */
 type Written<Value> = Value extends number ? Value | `${number}` : Value;
 
-/** Properties, and attributes by their own names. */
+/** Properties, and attributes under their own names. */
 export type CuspSlicerAttributes = {
   [Name in PropertyName as Name | AttributeOf<Name>]?: Written<CuspSlicer[Name]> | undefined;
 };

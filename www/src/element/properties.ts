@@ -1,5 +1,5 @@
 /**
- * The one list of what a page may set on `<cusp-slicer>`: Lit's declarations, the checks of attributes and the types for
+ * Single source of the properties that a page may set on `<cusp-slicer>`: Lit's declarations, the checks of attributes and the types for
  * frameworks derive from it. Tests compare the class and the tables of docs/embed.md with it.
  */
 import type { PropertyDeclaration } from "lit";
@@ -15,7 +15,7 @@ interface Attribute {
   readonly attribute: string;
   /** Reads and checks a value; absent for a URL, which is checked when it is fetched. */
   readonly read?: Reader<unknown>;
-  /** The setting that it sets. */
+  /** The setting that the attribute sets. */
   readonly sets?: keyof Settings;
 }
 
@@ -28,7 +28,7 @@ function byAttribute<List extends Attributes>(list: List): ByAttribute<List> {
   return Object.fromEntries(Object.values(list).map((it) => [it.attribute, it])) as ByAttribute<List>;
 }
 
-/** The metric comes before the tolerance, which is in its unit. */
+/** In order of application: the metric precedes the tolerance, which is in its unit. */
 const SETTING_PROPERTIES = {
   printer: { attribute: "printer", read: printer, sets: "printer" },
   format: { attribute: "format", read: oneOf(FORMATS), sets: "format" },
@@ -63,15 +63,15 @@ const ATTRIBUTE_PROPERTIES = {
 
 export const ATTRIBUTES = byAttribute(ATTRIBUTE_PROPERTIES);
 
-/** Every property that can be set, with its attribute if it has one. */
+/** All settable properties, with their attribute if they have one. */
 export const PROPERTIES = { ...ATTRIBUTE_PROPERTIES, weights: null, resins: null, prices: null, finish: null, limits: null, query: null } as const;
 
 export type PropertyName = keyof typeof PROPERTIES;
 
-/** Properties that can only be read; `state` is reflected in an attribute of that name. */
+/** Read-only properties; `state` is reflected in an attribute of that name. */
 export const READ_ONLY = ["state", "model", "models", "result", "plates", "price", "check"] as const;
 
-/** Declarations for Lit. All except `src` have setters of their own, which receive an attribute's text unconverted. */
+/** Declarations for Lit. All except `src` have their own setters, which receive an attribute's text unconverted. */
 export const DECLARATIONS: Readonly<Record<string, PropertyDeclaration>> = {
   ...Object.fromEntries(
     Object.entries(ATTRIBUTE_PROPERTIES).map(([name, { attribute }]) => [

@@ -1,4 +1,4 @@
-/** Passes on what a session reports: to the page as events, and to calls that wait for a plan. */
+/** Forwards the reports of a session: as events to the page, and to callers that wait for a plan. */
 import type { SlicerError } from "../api/error.js";
 import type { Check, Model, Plan } from "../api/index.js";
 import type { Candidate, Price } from "../api/wire.js";
@@ -21,7 +21,7 @@ interface Asked {
   hasView(): boolean;
   /** The list of printers has arrived. */
   offered(): void;
-  /** The page gave what cannot be used. */
+  /** Called with an error of the page, such as an invalid attribute. */
   misused(error: SlicerError): void;
 }
 

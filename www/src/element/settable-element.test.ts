@@ -1,11 +1,11 @@
-/** What a page sets on the element. Frameworks set new objects that are equal to those before, with every render. */
+/** Properties set by a page. Frameworks set new objects, equal to the previous ones, at every render. */
 import { afterEach, beforeEach, expect, test, vi } from "vitest";
 import { CuspSlicer } from "./cusp-slicer.js";
 import { FakeSlicer, model, planOf } from "./state/fake-slicer.js";
 
 vi.mock("../api/index.js", async (original) => ({ ...(await original<object>()), createSlicer: () => new FakeSlicer() }));
 
-/** An element that notes its events, and has its page do something after each. */
+/** An element that records its events, and runs a callback of the page after each. */
 class Watched extends CuspSlicer {
   readonly told: string[] = [];
   onTold = (): void => undefined;
@@ -19,7 +19,7 @@ class Watched extends CuspSlicer {
 let element: Watched;
 let slicer: FakeSlicer;
 
-/** Answers everything that is asked, until nothing is. */
+/** Answers pending calls until none is left. */
 async function settle(): Promise<void> {
   for (let answered = -1; answered < slicer.calls.length; ) {
     answered = slicer.calls.length;
@@ -44,7 +44,7 @@ afterEach(() => {
   vi.useRealTimers();
 });
 
-/** What a page with literals in its markup sets at each render. */
+/** Values that a page with literals in its markup sets at each render. */
 const GIVEN = {
   printer: () => ({ model: "Big One", pixels: [3840, 2400], pitch_um: [50, 50], volume_mm: [192, 120, 245] }),
   resins: () => [{ name: "Grey", exposure_s: 2 }],
@@ -80,7 +80,7 @@ test("a page that sets everything anew at each event ends with one plan", async 
   element.onTold = render;
   render();
   await settle();
-  // The plan before has a price, too.
+  // The previous plan has a price, too.
   expect([planned() - before, slicer.orders.length]).toEqual([1, 2]);
   expect(element.told.filter((it) => it === "cusp-plan")).toHaveLength(2);
 });

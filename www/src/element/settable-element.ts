@@ -1,4 +1,4 @@
-/** The element's properties as a page sets them: read and checked by `Attributes`, kept by the session or here. */
+/** The element's settable properties: checked by `Attributes`, stored in the session or here. */
 import { LitElement } from "lit";
 import type { SlicerError } from "../api/error.js";
 import { createSlicer, type Slicer } from "../api/index.js";
@@ -13,7 +13,7 @@ import { Session } from "./state/session.js";
 import { fromAddress, parse, toAddress } from "./state/settings.js";
 
 export abstract class SettableElement extends LitElement {
-  /** The headless slicer behind the element; a page may call it for more than the element shows. */
+  /** The headless slicer behind the element. A page may call it for anything that the element does not offer. */
   readonly slicer: Slicer = createSlicer({ assets: () => this.assets });
   /** @internal */
   protected readonly reports: Reports = new Reports(this, {
@@ -37,12 +37,12 @@ export abstract class SettableElement extends LitElement {
   }
 
   /**
-   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page; null: they are where a bundler has put
-   * them. It counts whenever a worker starts.
+   * URL of the folder with the package's `worker.js` and `cusp_slicer_bg.wasm`, relative to the page; null: where the bundler put them.
+   * Read each time a worker starts.
    */
   assets: string | null = null;
 
-  /** BCP 47 language tag; if null, the nearest `lang`, then the browser's languages. */
+  /** BCP 47 language tag; by default the nearest `lang`, or the browser's languages. */
   get locale(): string | null {
     return this.#locale;
   }
@@ -53,7 +53,7 @@ export abstract class SettableElement extends LitElement {
     this.requestUpdate();
   }
 
-  /** Panels to show, separated by spaces: see {@link PANELS}. Null shows all. */
+  /** Panels to show, separated by spaces; see {@link PANELS}. Null shows all. */
   get panels(): string | null {
     return this.#panels?.join(" ") ?? null;
   }
@@ -65,8 +65,8 @@ export abstract class SettableElement extends LitElement {
   }
 
   /**
-   * Attributes that only the page may change, separated by spaces: printer, format, resin, metric, tolerance, layer-min,
-   * layer-max. The form shows them read-only; undo, offers and the property `query` leave them alone.
+   * Attributes that only the page may change, separated by spaces: printer, format, resin, metric, tolerance, layer-min, layer-max. The
+   * form shows them read-only; undo, offers and the property `query` do not change them.
    */
   get fixed(): string | null {
     return this.#fixed?.join(" ") ?? null;
@@ -79,7 +79,7 @@ export abstract class SettableElement extends LitElement {
     this.requestUpdate();
   }
 
-  /** Name of a printer (see `slicer.printers()`), or the description of another; empty for none. */
+  /** Name of a printer (see `slicer.printers()`), or a description of another; empty for none. */
   get printer(): string | Printer {
     return this.session.settings.printer;
   }
@@ -87,7 +87,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("printer", copyOf(printer));
   }
 
-  /** Name of one of {@link resins}; empty for the default one. */
+  /** Name of one of {@link resins}; empty for the default resin. */
   get resin(): string {
     return this.session.settings.resin;
   }
@@ -95,7 +95,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("resin", resin);
   }
 
-  /** Largest error of a layer: mm (cusp, deviation, roughness), a fraction (area) or mm³ (volume). Null for the default. */
+  /** Maximum error of a layer: mm (cusp, deviation, thread, roughness), a fraction (area) or mm³ (volume). Null for the default. */
   get tolerance(): number | null {
     const { metric, tolerances } = this.session.settings;
     const typed = parse(tolerances[metric] ?? "");
@@ -121,7 +121,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("layer-max", mm);
   }
 
-  /** The metric of the tolerance. */
+  /** Metric of the tolerance. */
   get metric(): Metric {
     return this.session.settings.metric;
   }
@@ -129,7 +129,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("metric", metric);
   }
 
-  /** The format of the print file; null for the printer's own. */
+  /** Format of the print file; null for the printer's own. */
   get format(): Format | null {
     const { format } = this.session.settings;
     return format === "" ? null : format;
@@ -139,8 +139,8 @@ export abstract class SettableElement extends LitElement {
   }
 
   /**
-   * Instead of a tolerance, a point on the trade-off curve from 0, the fastest print worth having, to 1, the finest.
-   * Null until the curve is known.
+   * Point on the trade-off curve, in place of a tolerance: from 0, the fastest print worth having, to 1, the finest. Null until the curve
+   * is known.
    */
   get quality(): number | null {
     return this.session.quality;
@@ -150,7 +150,7 @@ export abstract class SettableElement extends LitElement {
     if (read !== undefined) this.session.quality = read;
   }
 
-  /** Where rays are cast: `cpu`, `gpu`, or null for whichever is faster. */
+  /** Processor that casts the rays: `cpu`, `gpu`, or null for the faster one. */
   get backend(): Backend | null {
     return this.session.backend;
   }
@@ -161,7 +161,7 @@ export abstract class SettableElement extends LitElement {
     this.session.replan();
   }
 
-  /** How a GPU casts them: by `fill` or by depth peeling, `peel`; null for the faster one that it can do. */
+  /** GPU method of casting rays: `fill`, or `peel` for depth peeling; null for the faster one that the GPU supports. */
   get gpuMethod(): GpuMethod | null {
     return this.session.gpuMethod;
   }
@@ -172,7 +172,7 @@ export abstract class SettableElement extends LitElement {
     this.session.replan();
   }
 
-  /** How much each facet matters, 0 to 1 in the order of `slicer.positions()`; null: all equally. Setting it plans again. */
+  /** Importance of each facet, 0 to 1 in the order of `slicer.positions()`; null: all equal. Setting it plans again. */
   get weights(): Float32Array | null {
     return this.session.weights;
   }
@@ -191,7 +191,7 @@ export abstract class SettableElement extends LitElement {
     this.requestUpdate();
   }
 
-  /** The prices of a shop, by which the result has a price; null for none. */
+  /** Prices of a shop, by which the result is priced; null for none. */
   get prices(): Prices | null {
     return this.session.pricing.asked?.prices ?? null;
   }
@@ -199,7 +199,7 @@ export abstract class SettableElement extends LitElement {
     this.#ask(copyOf(prices ?? null), this.#finish);
   }
 
-  /** The finish to price, by its name in {@link prices}; null for none. */
+  /** Name of the finish to price, from {@link prices}; null for none. */
   get finish(): string | null {
     return this.#finish;
   }
@@ -208,15 +208,15 @@ export abstract class SettableElement extends LitElement {
     this.#ask(this.prices, finish);
   }
 
-  /** What all copies of the last plan cost by {@link prices}; null while that is unknown. */
+  /** Price of all copies of the last plan by {@link prices}; null until known. */
   get price(): Price | null {
     const { isPriced, price } = this.session.pricing;
     return isPriced ? price : null;
   }
 
   /**
-   * What a shop accepts, for the checks of each plan; those left out have the defaults, so `{}` is all of them. Null: plans are
-   * checked only while a panel shows the findings.
+   * A shop's acceptance limits for the checks of each plan; omitted ones have the defaults, so `{}` checks with all defaults. Null: plans
+   * are checked only while a panel shows the findings.
    */
   get limits(): Limits | null {
     return this.session.checks.limits;
@@ -225,7 +225,7 @@ export abstract class SettableElement extends LitElement {
     this.session.checks.limits = copyOf(limits ?? null);
   }
 
-  /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are left out. */
+  /** All settings as a URL query, such as `metric=area&tolerance=5`; defaults are omitted. */
   get query(): string {
     return toAddress(this.session.settings);
   }
@@ -238,7 +238,7 @@ export abstract class SettableElement extends LitElement {
     this.session.pricing.asked = prices === null ? null : { prices, ...(finish !== null && { finish }) };
   }
 
-  /** An invalid attribute concerns the page's developer: the element does not show it to customers. */
+  /** Reports an invalid attribute to the page's developer; customers do not see it. */
   #misused(error: SlicerError): void {
     console.warn(`<${this.localName}>: ${error.message}`, this);
     this.reports.tell("cusp-error", error);

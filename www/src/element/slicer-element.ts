@@ -1,6 +1,6 @@
 /**
- * What every element around a slicer has: its properties, attributes, events and gestures, and the session behind them. How
- * the panels are laid out is a subclass's: in cards for pages of shops, as a workbench on our own.
+ * Base class of elements around a slicer: properties, attributes, events, gestures, and the session. A subclass lays out the panels: as
+ * cards for shop pages, or as a workbench on our own page.
  */
 import { nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
@@ -25,15 +25,15 @@ import { whenWanted } from "./when-wanted.js";
 
 export type State = "empty" | "busy" | "error" | "done" | "ready";
 
-/** A model of the element, with its number of copies and its pose, where it has one of its own. */
+/** A model of the element, with its number of copies and its own pose, if any. */
 export interface ModelOnPlate extends Model {
   own: Pick<ModelOptions, "copies" | "rotation" | "height_mm">;
 }
 
-/** What a person made by hand, which is gone with the page. */
+/** Handmade edits, lost when the page closes. */
 export interface Handwork {
   isPainted: boolean;
-  /** The settings of these names. */
+  /** Points and drain holes, as in the settings of these names. */
   points: string;
   drains: string;
   models: number;
@@ -49,7 +49,7 @@ export abstract class SlicerElement extends SettableElement {
 
   #life = new AbortController();
   readonly #explaining = new Explaining(() => this.requestUpdate());
-  /** The models that are being added, one after the other. */
+  /** Models being added, one after the other. */
   #adding: Promise<unknown> = Promise.resolve();
 
   constructor() {
@@ -76,7 +76,7 @@ export abstract class SlicerElement extends SettableElement {
   override disconnectedCallback(): void {
     super.disconnectedCallback();
     this.#life.abort();
-    // An element that was only moved is connected again by now.
+    // If the element was only moved, it is connected again by now.
     queueMicrotask(() => {
       if (this.isConnected) return;
       this.cancel();
@@ -84,7 +84,7 @@ export abstract class SlicerElement extends SettableElement {
     });
   }
 
-  /** empty, busy, ready (a model without a plan), done, or error; reflected in the attribute `state`. */
+  /** State of the element: empty, busy, ready (a model without a plan), done, or error; reflected in the attribute `state`. */
   get state(): State {
     const { busy, isPending, failure, result, model } = this.session;
     if (busy !== null || isPending) return "busy";
@@ -92,36 +92,36 @@ export abstract class SlicerElement extends SettableElement {
     return result !== null ? "done" : model !== null ? "ready" : "empty";
   }
 
-  /** The open model, of several the selected one; null if there is none. */
+  /** The open model, or the selected one of several; null if there is none. */
   get model(): Model | null {
     return this.session.model;
   }
 
-  /** All models in their order. */
+  /** All models, in order. */
   get models(): readonly ModelOnPlate[] {
     return this.session.plate.entries.map(({ model, copies, own }) => ({ ...model, own: { copies, ...own } }));
   }
 
-  /** The last successful plan; null if there is none. With several plates, that of the plate on show. */
+  /** The last successful plan; null if there is none. With several plates, that of the plate shown. */
   get result(): Result | null {
     return this.session.result;
   }
 
-  /** The last successful plan of all plates, with their time and resin in all; null if there is none. */
+  /** The last successful plan of all plates, with their total time and resin; null if there is none. */
   get plates(): Plan | null {
     return this.session.plate.planned ?? this.result;
   }
 
-  /** What will fail when the last plan is printed, and the verdict; null until it is checked: see `limits`. */
+  /** Findings on the last plan and the verdict; null until checked: see `limits`. */
   get check(): Check | null {
     return this.session.checks.check;
   }
 
   /**
-   * Opens a model and starts to plan it. Of several files, all stand on one plate if the panel `plate` is shown; otherwise
-   * the first is opened.
+   * Opens a model and starts to plan it. Given several files, puts all on one plate if the panel `plate` is shown; otherwise opens the
+   * first.
    *
-   * @throws SlicerError; an `AbortError` if it was cancelled, or if another model was opened meanwhile.
+   * @throws SlicerError; an `AbortError` if cancelled, or if another model was opened meanwhile.
    */
   async load(source: Source | readonly File[], name?: string): Promise<Model> {
     const model = isFiles(source) ? await this.#choose(source) : await this.session.open(source, name);
@@ -130,7 +130,7 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   /**
-   * Adds a model to those that are open, with copies and a pose of its own, and plans all together. Without an open model, opens it.
+   * Adds a model to the open ones, with its own copies and pose, and plans all together. If none is open, opens it.
    *
    * @throws as {@link load}
    */
@@ -143,7 +143,10 @@ export abstract class SlicerElement extends SettableElement {
     throw this.#reason();
   }
 
-  /** The plan for the settings; with several plates, that of the plate on show. Rejects with `bad-options`, `no-model`, an `AbortError`, or the error of the plan. */
+  /**
+   * The plan for the settings; with several plates, that of the plate shown. Rejects with `bad-options`, `no-model`, an `AbortError`, or
+   * the error of the plan.
+   */
   plan(): Promise<Plan> {
     this.judged.settle();
     if (Object.keys(this.session.faults).length > 0) {
@@ -159,9 +162,9 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   /**
-   * The print file of that plan, not saved. Rejects with `no-plan` if no model is open, otherwise as {@link plan} does.
+   * Print file of that plan; does not save it. Rejects with `no-plan` if no model is open, otherwise as {@link plan} does.
    *
-   * @param plate the plate, counted from 0; the one on show if absent
+   * @param plate index of the plate, from 0; by default the one shown
    */
   async export(plate?: number): Promise<PrintFile> {
     if (this.model !== null) await this.plan();
@@ -171,8 +174,8 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   /**
-   * A square PNG of the open model in the layers of its plan, on a transparent background, for a basket or a list of orders.
-   * Rejects with `part-failed` if the renderer cannot be loaded or there is no WebGL.
+   * A square PNG of the open model in the layers of its plan, on a transparent background, for a basket or a list of orders. Rejects with
+   * `part-failed` if the renderer cannot be loaded or WebGL is missing.
    *
    * @param size_px length of each side in pixels, clamped to 16 to 2048
    */
@@ -184,7 +187,7 @@ export abstract class SlicerElement extends SettableElement {
     return thumbnailOf(this.session.selected, result, plate.heightOf(plate.selected) ?? result.report.height_mm, size_px);
   }
 
-  /** Stops the running task and an orientation search within 0.1 s; the last plan stays. */
+  /** Stops the running task and any orientation search within 0.1 s; the last plan stays. */
   cancel(): void {
     this.session.cancel();
     this.session.orientation.cancel();
@@ -202,13 +205,13 @@ export abstract class SlicerElement extends SettableElement {
     if (changed.has("src") && this.src !== null) void this.session.open(this.src);
   }
 
-  /** @internal The layout. */
+  /** @internal Lays out the panels. */
   protected abstract layout(facts: Facts): TemplateResult;
 
   override render(): TemplateResult | typeof nothing {
     const session = this.session;
     const arriving = fetchLanguage(...this.#locales);
-    // Empty for a moment rather than in another language.
+    // Renders nothing until the language arrives, rather than another language.
     if (arriving !== null) {
       void arriving.then(() => this.requestUpdate());
       return nothing;
@@ -234,7 +237,7 @@ export abstract class SlicerElement extends SettableElement {
   override updated(): void {
     const before = this.getAttribute("state");
     this.setAttribute("state", this.state);
-    // The button that opened the model is gone, and the focus with it: move the focus to the model's name.
+    // The button that opened the model has gone, and the focus with it: focus the model's name.
     const root = this.renderRoot as ShadowRoot;
     if (before === "busy" && root.activeElement === null && this.#orphaned && this.model !== null) {
       this.#orphaned = false;
@@ -242,7 +245,7 @@ export abstract class SlicerElement extends SettableElement {
     }
   }
 
-  /** True if a model was opened with a button of the empty element, so that the focus will be lost. */
+  /** True if a model was opened with a button of the empty element, which will take the focus with it. */
   #orphaned = false;
 
   /** @internal */
@@ -251,7 +254,7 @@ export abstract class SlicerElement extends SettableElement {
     return { isPainted: entries.some(({ weights }) => weights !== null), points, drains, models: entries.length };
   }
 
-  /** @internal Shows why what somebody brought cannot be opened. */
+  /** @internal Shows the reason for which a drop or file cannot be opened. */
   refuse(error: SlicerError, name: string): void {
     this.session.refuse(error, name);
   }
@@ -261,7 +264,7 @@ export abstract class SlicerElement extends SettableElement {
     this.#orphaned = this.model === null;
   }
 
-  /** Returns true if files that are opened together stand on one plate; otherwise the first of them is opened. */
+  /** Returns true if files opened together are put on one plate; otherwise only the first is opened. */
   get #hasPlate(): boolean {
     return this.shownPanels.has("plate");
   }
@@ -274,7 +277,7 @@ export abstract class SlicerElement extends SettableElement {
     return [this.locale, langOf(this), ...navigator.languages].filter((locale) => locale !== null);
   }
 
-  /** Why the last task gave no result. */
+  /** Reason for which the last task gave no result. */
   #reason(): unknown {
     return this.session.failure?.error ?? new DOMException("cancelled", "AbortError");
   }
@@ -299,7 +302,7 @@ export abstract class SlicerElement extends SettableElement {
   };
 }
 
-/** The default side length of a thumbnail in pixels. */
+/** Default side length of a thumbnail in pixels. */
 const THUMBNAIL_PX = 400;
 
 declare global {

@@ -1,4 +1,4 @@
-/** The layout of `<cusp-slicer>`: its panels as cards, as a function of its session. */
+/** Layout of `<cusp-slicer>`: its panels as cards, as a function of its session. */
 import { html, nothing, type TemplateResult } from "lit";
 import {
   announcement,
@@ -29,16 +29,16 @@ import type { Result } from "./state/result.js";
 import { shown } from "../api/visible.js";
 
 interface Drawn extends Facts {
-  /** True if there is room for settings beside the results. */
+  /** True if there is room for settings next to the results. */
   isWide: boolean;
-  /** True if the problem is shown beside the setting that caused it. */
+  /** True if the problem is shown next to the setting that caused it. */
   isBeside: boolean;
 }
 
 export function template(facts: Facts, isWide: boolean): TemplateResult {
   const { session, panels, problem, isDragging } = facts;
   const { model, result, settings, busy } = session;
-  // Without a plan the reason stands in the middle: nobody looks for it among the settings.
+  // Without a plan, the problem is shown in the middle, not among the settings.
   const isBeside = problem !== null && result !== null && panels.has("settings") && hasPlace(problem, settings, session);
   const drawn = { ...facts, isWide, isBeside };
   return html`
@@ -55,7 +55,7 @@ function problemOf({ session, problem, language }: Drawn): TemplateResult | type
   return problemBox(problem, language, (change) => session.change(change), () => session.dismiss());
 }
 
-/** The element before a model is open. */
+/** Content before a model is open. */
 function start({ session, language, panels, picked }: Drawn): TemplateResult {
   const { busy } = session;
   const { texts } = language;
@@ -92,7 +92,7 @@ function work(drawn: Drawn): TemplateResult {
   </div>`;
 }
 
-/** The open model, with the list of all. */
+/** The open model, with the list of all models. */
 function modelsCard(drawn: Drawn): TemplateResult | typeof nothing {
   const { session, language, panels, picked, saveTowers } = drawn;
   const list = panels.has("plate") ? platePanel(drawn) : nothing;
@@ -109,7 +109,7 @@ function settingsCard(drawn: Drawn): TemplateResult {
   </details>`;
 }
 
-/** In place of results while there is no plan. */
+/** Content in place of results while there is no plan. */
 function waiting(drawn: Drawn): TemplateResult {
   const { session, language, panels } = drawn;
   const { busy } = session;
@@ -160,7 +160,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
   `;
 }
 
-/** Folded away, and nothing is checked, until somebody wants to know. */
+/** Collapsed, and nothing is checked, until a user opens it. */
 function findingsCard(drawn: Drawn): TemplateResult {
   const { session, language } = drawn;
   const toggled = ({ target }: Event): void => void (session.checks.isOpen = (target as HTMLDetailsElement).open);

@@ -1,4 +1,4 @@
-/** When an element is about to be used: a page that has it further down need not fetch the slicer for every visitor. */
+/** Detects that an element is about to be used: a page with the element further down need not fetch the slicer for every visitor. */
 
 /** Calls back once, when the element comes into view or files are dragged over its page. Ends with the signal. */
 export function whenWanted(element: Element, wanted: () => void, signal: AbortSignal): void {

@@ -14,7 +14,7 @@ export interface Rectangle {
   height: number;
 }
 
-/** How many mask pixels per side to merge into one, at `scale` screen pixels per mask pixel: 1, 2, 4 or 8. */
+/** Number of mask pixels per side to merge into one, at `scale` screen pixels per mask pixel: 1, 2, 4 or 8. */
 export function factorFor(scale: number): number {
   let factor = 1;
   while (factor < 8 && 2 * factor * scale <= 1) factor *= 2;
@@ -37,8 +37,8 @@ const BITS = Uint8Array.from({ length: 256 }, (_, byte) => {
 });
 
 /**
- * A part of a mask with blocks of `factor` × `factor` pixels merged. `factor` is 1, 2, 4 or 8 and `part.x` a multiple of
- * 8, so that no block straddles two bytes. Cost: linear in the bytes of the part.
+ * Part of a mask with blocks of `factor` × `factor` pixels merged. `factor` is 1, 2, 4 or 8, and `part.x` a multiple of 8, so that no block
+ * straddles two bytes. Cost: linear in the bytes of the part.
  */
 export function coverage(bits: Uint8Array, maskWidth: number, part: Rectangle, factor: number): Coverage {
   const stride = Math.ceil(maskWidth / 8);

@@ -1,10 +1,10 @@
-/** What the view draws of a printer. */
+/** Build volume of a printer, as drawn in the view. */
 import type { Printer } from "../../api/wire.js";
 import type { BuildVolume } from "../../view/scene/plate.js";
 
 const volumes = new WeakMap<Printer, BuildVolume>();
 
-/** The same object for a printer: a new one would count as a change. */
+/** The build volume of a printer, cached per printer, since a new object would count as a change. */
 export function volumeOf(printer: Printer | null): BuildVolume | null {
   if (printer === null) return null;
   let volume = volumes.get(printer);

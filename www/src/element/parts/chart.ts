@@ -1,8 +1,8 @@
 /**
  * The profile and the plan as a uPlot chart: height up, the metric's density to the right, the layers as bands of colour.
  *
- * uPlot's x is the axis that the data is sorted by, which here is the height. Making that scale vertical (`ori: 1`) and the
- * density horizontal (`ori: 0`) gives the paper's figure, and keeps uPlot's own decimation, zoom and cursor.
+ * uPlot's x is the axis by which the data is sorted, here the height. Making that scale vertical (`ori: 1`) and the density horizontal
+ * (`ori: 0`) gives the paper's figure, and keeps uPlot's own decimation, zoom and cursor.
  */
 import type uPlot from "uplot";
 import { css, ofThickness } from "../../view/legend/palette.js";
@@ -19,21 +19,21 @@ export interface ChartTheme {
   /** Axis labels. */
   text: string;
   grid: string;
-  /** The colour that the bands fade into beyond the profile. */
+  /** Colour into which bands fade beyond the profile. */
   paper: string;
-  /** The line between layers that are tall enough to tell apart. */
+  /** Line between layers that are tall enough to distinguish. */
   seam: string;
   font: string;
 }
 
-/** Rows of pixels with the same colour: that of the mean thickness of the layers they cross. */
+/** Rows of pixels of one colour: that of the mean thickness of the layers they cross. */
 export interface Band {
   row: number;
   rows: number;
   thickness_mm: number;
 }
 
-/** Layers lower than this on the screen have no seam. */
+/** Minimum height of a layer on the screen to have a seam. */
 const SEAM_FROM_PX = 5;
 
 /** Allowance for rounding, as a fraction of a pixel row. */
@@ -42,20 +42,20 @@ const EDGE = 1e-6;
 /** Opacity of a band beyond the profile. */
 const FADED = 0.45;
 
-/** Factor beyond the greatest value, so that its line is visible. */
+/** Factor beyond the greatest value, to keep its line visible. */
 const MARGIN = 1.01;
 
-/** Where a density axis has its ticks, as parts of the bound: in a narrow chart, quarters would run into each other. */
+/** Ticks of a density axis, as fractions of the bound. In a narrow chart, quarters would overlap. */
 const QUARTERS = [0, 0.25, 0.5, 0.75, 1];
 const HALVES = [0, 0.5, 1];
 const NARROW_PX = 260;
 
-/** Lowest and highest height on show, mm. */
+/** Visible range of heights, mm. */
 export type Heights = readonly [low: number, high: number];
 
 /**
- * Heights enlarged by `factor` and moved so that `z_mm` lies at `place`, 0 the lower and 1 the upper edge. They stay within
- * the model, from 0 to `whole_mm`, and span `least_mm` or more.
+ * Zooms heights by `factor` so that `z_mm` lies at `place`, 0 the lower and 1 the upper edge. The result stays within the model, from 0 to
+ * `whole_mm`, and spans at least `least_mm`.
  */
 export function zoomHeights([low, high]: Heights, factor: number, z_mm: number, place: number, whole_mm: number, least_mm: number): Heights {
   const span = Math.min(whole_mm, Math.max(least_mm, (high - low) / factor));
@@ -63,20 +63,20 @@ export function zoomHeights([low, high]: Heights, factor: number, z_mm: number, 
   return [start, start + span];
 }
 
-/** The end of the density axis: just beyond the metric's bound, or else beyond the greatest value of the profile. */
+/** End of the density axis: just beyond the metric's bound, or without one beyond the greatest value of the profile. */
 export function densityEnd({ metric, profile }: ChartData): number {
   const end = METRICS[metric].bound ?? profile.reduce((most, value) => Math.max(most, value), 0);
   return end > 0 ? end * MARGIN : 1;
 }
 
-/** The heights of the bin centres in mm and the densities, in uPlot's format. */
+/** Heights of the bin centres in mm and the densities, in uPlot's format. */
 export function chartData({ profile, bin_mm }: ChartData): uPlot.AlignedData {
   return [Float64Array.from(profile, (_, i) => (i + 0.5) * bin_mm), profile];
 }
 
 /**
- * The plan as `rows` rows of pixels from the height `top` down to `bottom`, in mm; rows above or below the model are left
- * out. Cost: linear in the layers in range plus the rows.
+ * The plan as `rows` rows of pixels from height `top` down to `bottom`, in mm; rows above or below the model are omitted. Cost: linear in
+ * the layers in range plus the rows.
  */
 export function bands(data: ChartData, top: number, bottom: number, rows: number): Band[] {
   const { z_mm, thickness_mm } = data;
@@ -99,7 +99,7 @@ export function bands(data: ChartData, top: number, bottom: number, rows: number
   return out;
 }
 
-/** The bands of the whole plot as a pattern one pixel wide, repeated sideways, so that they can fill any shape. */
+/** Bands of the whole plot as a pattern one pixel wide, repeated horizontally to fill any shape. */
 function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPattern | string {
   const { bbox } = u;
   const { min, max } = u.scales["x"] ?? {};
@@ -122,7 +122,7 @@ function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPatter
   return u.ctx.createPattern(strip, "repeat-x") ?? "transparent";
 }
 
-/** Fills the plot with the bands, faded into the paper; the profile is filled with them in full colour later. */
+/** Fills the plot with faded bands; the profile is later filled in full colour. */
 function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme): void {
   const { ctx, bbox } = u;
   ctx.save();
@@ -134,7 +134,7 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
   ctx.restore();
 }
 
-/** The uPlot options for a chart of this size in CSS pixels. Its axes are labelled outside, where long labels can wrap. */
+/** uPlot options for a chart of this size in CSS pixels. Axis labels are HTML outside, where long ones can wrap. */
 export function chartOptions(
   data: ChartData,
   theme: ChartTheme,

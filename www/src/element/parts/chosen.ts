@@ -1,4 +1,4 @@
-/** The files that a person chose in a file dialog. */
+/** Files chosen in a file dialog. */
 export function chosen(event: Event): File[] {
   const input = event.target as HTMLInputElement;
   const files = [...(input.files ?? [])];

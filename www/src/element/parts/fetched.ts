@@ -1,9 +1,9 @@
-/** Code that is fetched when it is first wanted, and once more when it is wanted after a failure. */
+/** Code that is fetched on first use, with a retry after a failure. */
 import { said } from "../../api/error.js";
 
 /**
- * `load` imports the code. A browser keeps the failure of an import for as long as the page is there, so the next try has another
- * address: the one that the failure names, with a query that servers ignore. Where it names none, only a reload helps. Bundlers must not look for it.
+ * Wraps `load`, which imports the code. A browser caches a failed import for the lifetime of the page, so a retry uses another URL: the one
+ * named by the failure, with a query that servers ignore. If it names none, only a reload helps. Bundlers must not resolve that import.
  */
 export function fetched<Code>(load: () => Promise<Code>): () => Promise<Code> {
   let other: string | null = null;
@@ -17,7 +17,7 @@ export function fetched<Code>(load: () => Promise<Code>): () => Promise<Code> {
   };
 }
 
-/** Browsers name the address like this. Bundlers that load code by themselves say something else, and try again when they are asked to. */
+/** URL in the browser's message of a failed import. Bundlers with their own loaders word it differently, but retry on request. */
 function otherAddress(failure: string): string | null {
   const named = /dynamically imported module: (https?:\S+)/.exec(failure)?.[1];
   if (named === undefined) return null;

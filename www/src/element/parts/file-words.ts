@@ -1,10 +1,10 @@
-/** The line at the download button: what the file is, whether the printer reads it, and whether the model prints as it is. */
+/** The line at the download button: the format of the file, the printer's support for it, and the preparation of the model. */
 import type { Format, KnownPrinter, Report } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { modelOf, printerOf } from "../state/printer.js";
 import type { Result } from "../state/result.js";
 
-/** What slicers of filament printers call the thickness of the first layer, with the way to it: the same in every language. */
+/** Menu paths of the first layer's thickness in slicers for filament printers; the same in every language. */
 const SETTINGS: Partial<Record<Format, string>> = {
   "prusa-3mf": "Print Settings → Layers and perimeters → First layer height",
   "orca-3mf": "Quality → Layer height → First layer height / Initial layer height",
@@ -25,14 +25,14 @@ export function fileWords({ report }: Pick<Result, "report">, printers: readonly
     const model = modelOf(printer);
     if (isRead) return [words.direct(model)];
     const { reads = [] } = printer;
-    // No converter reads a zip of images alone.
+    // No converter reads a zip of images.
     if (format === "png" || reads.length === 0) return [words.unreadable(model)];
     return [words.convert(model, either(reads.map((extension) => `.${extension}`)))];
   };
   return words.together([words.kinds[format](extension), ...reading(), prepared(report, words)]);
 }
 
-/** Returns true if the models print unchanged. */
+/** Sentence on the preparation of the models: supports, hollowing, or none. */
 function prepared({ models }: Report, words: Language["texts"]["file"]): string {
   const isHollow = models.some(({ hollowed }) => hollowed !== undefined);
   const isSupported = models.some(({ supported }) => supported !== undefined);

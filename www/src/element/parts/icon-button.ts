@@ -1,4 +1,4 @@
-/** Small buttons with a picture in place of words, drawn in a square of 20 units. */
+/** Small icon buttons, drawn in a square of 20 units. */
 import { html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Session } from "../state/session.js";
@@ -19,6 +19,6 @@ export const iconButton = (icon: keyof typeof ICONS, name: string, isPossible: b
   <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${ICONS[icon]} /></svg>
 </button>`;
 
-/** The buttons that undo and redo changes of a session. */
+/** Undo and redo buttons of a session. */
 export const stepButtons = (session: Pick<Session, "canUndo" | "canRedo" | "undo" | "redo">, { texts: { settings: words } }: Language): TemplateResult =>
   html`${iconButton("undo", words.undo, session.canUndo, () => session.undo())} ${iconButton("redo", words.redo, session.canRedo, () => session.redo())}`;

@@ -1,4 +1,4 @@
-/** The nearest `lang` of an element or its ancestors, across shadow roots; null if there is none. */
+/** Nearest `lang` of an element or its ancestors, across shadow roots; null if there is none. */
 export function langOf(element: Element): string | null {
   for (let at: Element | null = element; at !== null; ) {
     const found: Element | null = at.closest("[lang]");

@@ -1,13 +1,10 @@
-/** Parts that are fetched when first shown, and what a panel shows if one cannot be loaded. */
+/** Parts whose code is fetched when first shown, and the message shown if that fails. */
 import { css, html, nothing, type CSSResult, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
 import { fetched } from "./fetched.js";
 
-/**
- * The 3-D view, what paints weights in it, and what places points; the chart of the profile; the panel of orientation, and the
- * pictures of the best ones; the list of models; what will fail; the masks; on our page, the reader of print files.
- */
+/** Names of the parts. `pictures` are those of the best orientations; `reader` is our page's reader of print files. */
 export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "findings" | "mask" | "reader";
 
 export function partError(part: Part, cause: unknown): SlicerError {
@@ -15,7 +12,7 @@ export function partError(part: Part, cause: unknown): SlicerError {
   return new SlicerError("part-failed", `a part of the page could not be loaded: ${part} (${system})`, { part, system });
 }
 
-/** Fires `cusp-error` from the panel. It reaches the page as an event of the element, whose plan stays. */
+/** Fires `cusp-error` from the panel. It reaches the page as an event of the element; the plan stays. */
 export function tellPartFailed(panel: HTMLElement, part: Part, cause: unknown): void {
   const detail = partError(part, cause);
   panel.dispatchEvent(new CustomEvent("cusp-error", { detail, bubbles: true, composed: true }));
@@ -28,10 +25,10 @@ export function partFailure({ texts }: Language, again: () => void): TemplateRes
   </div>`;
 }
 
-/** A panel's code that is fetched when it is first shown, once for all elements of the page. */
+/** A panel's code, fetched when first shown, once for all elements of the page. */
 export class FetchedPanel<Code> {
   isThere = false;
-  /** What was fetched. */
+  /** The fetched code. */
   code: Code | null = null;
   readonly #part: Part;
   readonly #fetch: () => Promise<Code>;
@@ -39,14 +36,14 @@ export class FetchedPanel<Code> {
   #arriving: Promise<void> | null = null;
   #isMissing = false;
 
-  /** @param arrived what to do with it then */
+  /** @param arrived called with the code once fetched */
   constructor(part: Part, load: () => Promise<Code>, arrived: (code: Code) => void = () => undefined) {
     this.#part = part;
     this.#fetch = fetched(load);
     this.#arrived = arrived;
   }
 
-  /** What stands in the panel's place until it is there. Fetches it, and has the element rendered again then. */
+  /** Placeholder for the panel. Starts the fetch, and renders the element again at its end. */
   instead(element: LitElement, language: Language): TemplateResult | typeof nothing {
     if (this.#isMissing) {
       return partFailure(language, () => {
@@ -70,7 +67,7 @@ export class FetchedPanel<Code> {
   }
 }
 
-/** Gives an element the styles of code that was fetched, once. */
+/** Adds the styles of fetched code to an element, once. */
 export function adopt({ renderRoot }: LitElement, { styleSheet }: CSSResult): void {
   const root = renderRoot as ShadowRoot;
   if (styleSheet !== undefined && !root.adoptedStyleSheets.includes(styleSheet)) root.adoptedStyleSheets = [...root.adoptedStyleSheets, styleSheet];

@@ -6,7 +6,7 @@ import { bands, densityEnd, zoomHeights, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
 
-/** A reference for `coverage`, one pixel at a time. */
+/** Naive reference for `coverage`, one pixel at a time. */
 function naive(bits: Uint8Array, width: number, height: number, part: Rectangle, factor: number): number[] {
   const stride = Math.ceil(width / 8);
   const lit = (x: number, y: number): number =>
@@ -26,7 +26,7 @@ function naive(bits: Uint8Array, width: number, height: number, part: Rectangle,
 
 const [MASK_WIDTH, MASK_HEIGHT] = [37, 29];
 const BITS = Uint8Array.from({ length: Math.ceil(MASK_WIDTH / 8) * MASK_HEIGHT }, (_, i) =>
-  // Bits past the width are padding: the format leaves them dark.
+  // Bits beyond the width are padding, which the format leaves 0.
   i % 5 === 4 ? ((i * 89 + 41) & 0b11111000) : (i * 89 + 41) & 255,
 );
 
@@ -135,7 +135,7 @@ test("the axis ends at the metric's bound, or at the largest area of the model",
 test("heights are zoomed around a point that keeps its place, within the model, down to a least span", () => {
   expect(zoomHeights([0, 20], 2, 10, 0.5, 20, 1)).toEqual([5, 15]);
   expect(zoomHeights([5, 15], 1, 10, 0.25, 20, 1)).toEqual([7.5, 17.5]);
-  // The ends of the model.
+  // Limited by the ends of the model.
   expect(zoomHeights([5, 15], 1, 10, 1, 20, 1)).toEqual([0, 10]);
   expect(zoomHeights([5, 15], 1, 18, 0.5, 20, 1)).toEqual([10, 20]);
   expect(zoomHeights([5, 15], 0.25, 10, 0.5, 20, 1)).toEqual([0, 20]);

@@ -1,4 +1,4 @@
-/** What draws pictures of the model, fetched with the first of them. */
+/** Code that draws thumbnails of the model, fetched on first use. */
 import { fetched } from "./fetched.js";
 
 export const fetchPictures = fetched(() => import("../../view/scene/thumbnails.js"));

@@ -1,9 +1,9 @@
-/** What the view draws of a plate: the copies of the session, with the shapes of their models. */
+/** Input of the view for a plate: the copies of the session, with the shapes of their models. */
 import { heightOf, UPRIGHT } from "../../view/scene/turn.js";
 import type { Copy as Standing, Shape } from "../../view/scene/copies.js";
 import type { Copy, Entry } from "../state/plate.js";
 
-/** Fetches the positions of the models on a plate. */
+/** Source of the positions of models on a plate. */
 export interface Shapes {
   positionsOf(entry: Entry): Promise<Float32Array>;
 }
@@ -18,7 +18,7 @@ export class PlateView {
   readonly #shapes = new WeakMap<Float32Array, Shaped>();
   #shows = 0;
 
-  /** @param draw is called with the copies once the positions of their models are there */
+  /** @param draw called with the copies once the positions of their models are known */
   constructor(draw: (standing: readonly Standing[]) => void) {
     this.#draw = draw;
   }
@@ -33,7 +33,7 @@ export class PlateView {
     });
     void Promise.all(shaping).then(
       (shaped) => {
-        // A newer call has drawn or will.
+        // A newer call draws instead.
         if (show !== this.#shows) return;
         const shapes = new Map(shaped);
         this.#draw(
@@ -48,7 +48,7 @@ export class PlateView {
     );
   }
 
-  /** The same object as long as model and pose stay the same. */
+  /** Shape of a model, cached while model and pose stay the same. */
   #shapeOf({ own }: Entry, positions: Float32Array, height_mm: number | null): Shape {
     const pose = JSON.stringify([own.rotation, height_mm]);
     const known = this.#shapes.get(positions);

@@ -1,4 +1,4 @@
-/** The box that shows a failure: what happened, and the buttons of its offers. */
+/** The box for a failure: its explanation, and the buttons of its offers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 import type { Offer } from "../state/advice.js";

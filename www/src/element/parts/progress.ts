@@ -1,4 +1,4 @@
-/** The progress of a task, its estimated time left, and the bar that shows both. */
+/** Progress of a task: its state, estimated time left, and bar. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Stage } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
@@ -15,16 +15,16 @@ export interface Busy {
   started_ms: number;
 }
 
-/** Before this much time and this fraction, an estimate of the rest would jump about. */
+/** Before this time and this fraction, an estimate would fluctuate. */
 const GUESS_FROM_MS = 1500;
 const GUESS_FROM = 0.05;
 
-/** The task after a step. Timing restarts when `done` falls, as it does when an export has replayed its plan. */
+/** The state after a step. Timing restarts when `done` falls, as it does when an export has replayed its plan. */
 export function advanced(busy: Busy, step: Pick<Busy, "stage" | "fraction" | "done">, now_ms: number): Busy {
   return { ...busy, ...step, started_ms: step.done < busy.done ? now_ms : busy.started_ms };
 }
 
-/** Estimated seconds left; null while it is too early to tell. */
+/** Estimated seconds left; null while too early to estimate. */
 export function secondsLeft({ done, started_ms }: Busy, now_ms: number): number | null {
   const elapsed_ms = now_ms - started_ms;
   const isKnown = elapsed_ms >= GUESS_FROM_MS && done >= GUESS_FROM;

@@ -17,7 +17,7 @@ export function saveFile({ name, blob }: Saved): void {
   setTimeout(() => URL.revokeObjectURL(address), SAVED_MS);
 }
 
-/** Saves a file once it is made, unless there is none. */
+/** Saves a file once made; null saves nothing. */
 export async function saveMade(making: Promise<Saved | null>): Promise<void> {
   const file = await making;
   if (file !== null) saveFile(file);

@@ -1,13 +1,13 @@
-/** Moves from one direction on the sphere to the next by arrow key. */
+/** Moves between directions on the sphere with the arrow keys. */
 import type { Triple } from "../../view/scene/pose.js";
 
 export type Way = "left" | "right" | "up" | "down";
 
-/** Increment in degrees by which a step looks for the next direction. */
+/** Step in degrees of the search for the next direction. */
 const LOOK_DEG = 2;
 const RADIANS = Math.PI / 180;
 
-/** A direction in the viewer's frame, moved by `degrees`: around the vertical, or up or down as far as the pole. */
+/** A direction in the viewer's frame, moved by `degrees`: around the vertical, or up or down, at most to the pole. */
 export function moved([x, y, z]: Triple, way: Way, degrees: number): Triple {
   const angle = degrees * RADIANS;
   if (way === "left" || way === "right") {
@@ -20,13 +20,13 @@ export function moved([x, y, z]: Triple, way: Way, degrees: number): Triple {
   return [Math.cos(turned) * Math.sin(around), Math.sin(turned), Math.cos(turned) * Math.cos(around)];
 }
 
-/** Moves away from the top or the bottom, where rotating about the vertical has no effect, to one side. */
+/** Moves sideways from the top or the bottom, where rotating about the vertical has no effect. */
 function aside([, y]: Triple, way: Way, degrees: number): Triple {
   const angle = degrees * RADIANS;
   return [way === "left" ? -Math.sin(angle) : Math.sin(angle), Math.sign(y) * Math.cos(angle), 0];
 }
 
-/** The index of the first other direction that way; that of `from` if there is none. */
+/** Index of the first other direction in this way; that of `from` if there is none. */
 export function stepped(from: Triple, way: Way, indexOf: (seen: Triple) => number): number {
   const start = indexOf(from);
   const isAcross = way === "left" || way === "right";

@@ -1,4 +1,4 @@
-/** Styles that depend on data, set as properties: a style attribute needs 'unsafe-inline' in a Content-Security-Policy. */
+/** Sets data-dependent styles as properties: a style attribute would need 'unsafe-inline' in a Content-Security-Policy. */
 import { noChange } from "lit";
 import { directive, Directive, type ElementPart } from "lit/directive.js";
 

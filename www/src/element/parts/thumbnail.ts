@@ -11,8 +11,7 @@ const LEAST_PX = 16;
 const MOST_PX = 2048;
 
 /**
- * A PNG of the model in the layers of a plan. Rejects with `part-failed` if the renderer cannot be loaded or there is no
- * WebGL.
+ * A PNG of the model in the layers of a plan. Rejects with `part-failed` if the renderer cannot be loaded or WebGL is missing.
  *
  * @param height_mm height of the model in the plan
  * @param size_px length of each side in pixels, clamped to 16 to 2048

@@ -1,8 +1,8 @@
-/** The offer of test towers: their button, and what to measure on them. */
+/** Offer of test towers: their button, and instructions for measuring them. */
 import { html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
 
-/** Whether the towers can be written now, are being written, or have to wait for a task or a setting. */
+/** State of the towers: can be written, are being written, or must wait for a task or a setting. */
 export type TowersState = "ready" | "writing" | "waiting";
 
 export function towersOffer(state: TowersState, { texts: { towers: words } }: Language, save: () => void): TemplateResult {

@@ -1,4 +1,4 @@
-/** Text fields that are drawn again while a person types. */
+/** Text fields that can be rendered while the user types. */
 import { noChange } from "lit";
 import { setCommittedValue } from "lit/directive-helpers.js";
 import { directive, Directive, PartType, type PartInfo, type PropertyPart } from "lit/directive.js";
@@ -19,7 +19,7 @@ class Typed extends Directive {
   override update(part: PropertyPart, [text]: [string]): unknown {
     this.#listen(part);
     if (this.#isTyping || this.#field?.value === text) return noChange;
-    // What the field had before does not count: a person may have changed it.
+    // Discards Lit's last value: the user may have changed the field.
     setCommittedValue(part);
     return text;
   }
@@ -32,5 +32,5 @@ class Typed extends Directive {
   }
 }
 
-/** The `value` of a text field, which is left alone from the first letter that is typed until that counts or the field is left. */
+/** Directive for the `value` of a text field that leaves the field alone while the user types, until a change or blur event. */
 export const typed = directive(Typed);

@@ -1,8 +1,8 @@
-/** Zoom and position of a mask: which part of it is on the screen, and at what scale. */
+/** Zoom and position of a mask: its visible part and the scale. */
 import type { Rectangle } from "./bitmap.js";
 
 export interface Place {
-  /** 1 shows the whole mask. */
+  /** Zoom factor; 1 shows the whole mask. */
   zoom: number;
   /** The point at the centre of the screen, as fractions of width and height. */
   centre: readonly [number, number];
@@ -19,7 +19,7 @@ export interface Window {
   scale: readonly [number, number];
 }
 
-/** The visible part of a mask on a screen. `pitch` is the height of a mask pixel divided by its width. */
+/** Visible part of a mask on a screen. `pitch` is the height of a mask pixel divided by its width. */
 export function windowOf(place: Place, mask: readonly [number, number], screen: readonly [number, number], pitch: number): Window {
   const fit = Math.min(screen[0] / mask[0], screen[1] / (mask[1] * pitch));
   const scale = [fit * place.zoom, fit * place.zoom * pitch] as const;
@@ -38,10 +38,10 @@ export function zoomed({ zoom, centre }: Place, times: number): Place {
   return next === 1 ? WHOLE : { zoom: next, centre };
 }
 
-/** A point of the screen, as fractions of its width and height from the top left corner. */
+/** A screen point, as fractions of width and height from the top left corner. */
 export type Point = readonly [number, number];
 
-/** Multiplies the zoom and moves, so that what was at `from` on the screen is at `to`, as far as the edges of the mask allow. */
+/** Multiplies the zoom and moves the point at `from` on the screen to `to`, as far as the edges of the mask allow. */
 export function dragged(
   place: Place,
   { times = 1, from, to }: { times?: number; from: Point; to: Point },

@@ -1,20 +1,20 @@
-/** Zooming and moving the heights of a chart: two fingers, a pinch on a trackpad, the wheel with Control. */
+/** Gestures that zoom and move the heights of a chart: two fingers, a trackpad pinch, or the wheel with Control. */
 import type { Heights } from "./chart.js";
 
 /** The chart that is zoomed. */
 export interface Zoomable {
-  /** The heights on show. */
+  /** Visible range of heights. */
   shown(): Heights;
-  /** The place of a point on the screen, 0 the lower and 1 the upper edge of the plot, and the height there. */
+  /** Position of a screen point in the plot, 0 at the lower and 1 at the upper edge, and its height. */
   under(clientY: number): readonly [place: number, z_mm: number];
-  /** Enlarges `from`, or what is on show, by a factor, and moves it so that a height lies at a place. */
+  /** Zooms `from`, by default the visible range, by a factor so that `z_mm` lies at `place`. */
   zoom(factor: number, z_mm: number, place: number, from?: Heights): void;
 }
 
-/** How much a turn of the wheel enlarges, per pixel; browsers report a pinch on a trackpad as such a turn, with Control. */
+/** Zoom per pixel of wheel movement; browsers report a trackpad pinch as wheel movement with Control. */
 const WHEEL_ZOOM = 0.01;
 
-/** Two fingers: their distance, the height between them, and what was on show when the second came down. */
+/** A two-finger gesture: initial distance, height between the fingers, and visible range. */
 interface Pinch {
   apart_px: number;
   z_mm: number;
@@ -32,7 +32,7 @@ export class ZoomGestures {
 
   readonly down = ({ pointerType, isPrimary, pointerId, clientX: x, clientY: y }: PointerEvent): void => {
     if (pointerType !== "touch") return;
-    // The first finger: one whose end was missed is not there any more.
+    // The first finger of a gesture: any left over missed their end event.
     if (isPrimary) this.drop();
     this.#fingers.set(pointerId, { x, y });
     const hold = this.#hold();
@@ -53,25 +53,25 @@ export class ZoomGestures {
   };
 
   readonly wheeled = (event: WheelEvent): void => {
-    // Otherwise the wheel scrolls the page.
+    // Without Control, the wheel scrolls the page.
     if (!event.ctrlKey) return;
     event.preventDefault();
     const [place, z_mm] = this.#chart.under(event.clientY);
     this.#chart.zoom(Math.exp(-WHEEL_ZOOM * event.deltaY), z_mm, place);
   };
 
-  /** Keeps the page from scrolling under two fingers, which would end their gesture. */
+  /** Keeps the page from scrolling under two fingers, which would end the gesture. */
   readonly touched = (event: TouchEvent): void => {
     if (event.touches.length > 1 && event.cancelable) event.preventDefault();
   };
 
-  /** Forgets the fingers, as when the chart is drawn anew. */
+  /** Forgets the fingers, as when the chart is redrawn. */
   drop(): void {
     this.#fingers.clear();
     this.#pinch = null;
   }
 
-  /** The distance of two fingers, and the middle between them; null if there are more or fewer. */
+  /** Distance of two fingers and their centre; null for any other number of fingers. */
   #hold(): { apart_px: number; y: number } | null {
     const [a, b, ...more] = this.#fingers.values();
     if (a === undefined || b === undefined || more.length > 0) return null;

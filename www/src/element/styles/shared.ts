@@ -1,8 +1,8 @@
-/** The styles that the elements share: cards, buttons, focus, and text for screen readers only. */
+/** Styles shared by the elements: cards, buttons, focus, and text for screen readers only. */
 import { css } from "lit";
 import { visuallyHidden } from "../../view/visually-hidden.js";
 
-/** An icon drawn in lines, as high as the text of its button. */
+/** Line icon with the height of its button's text. */
 export const lineIcon = css`
   width: 1.125rem;
   height: 1.125rem;
@@ -13,7 +13,7 @@ export const lineIcon = css`
   stroke-linejoin: round;
 `;
 
-/** A panel that fills a box of definite height, and lays itself out by its own width. */
+/** Panel that fills a box of definite height, with a layout by its own width. */
 export const filling = css`
   :host {
     display: flex;

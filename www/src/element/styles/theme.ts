@@ -1,4 +1,4 @@
-/** The colours of an element of ours, which its page may set, and its type. */
+/** Colours, which the page may set, and fonts of our elements. */
 import { css } from "lit";
 
 export const theme = css`
