@@ -1,4 +1,4 @@
-/** Warnings in words, and what may help. */
+/** Warnings as sentences, with offers. */
 import type { WarningCode, WarningDetails } from "../../api/warning.js";
 import type { ModelUnit, PlateChoice, UniformLayers, Warning } from "../../api/wire.js";
 import type { Language, Texts } from "../../texts/index.js";
@@ -11,32 +11,31 @@ export interface Offer {
   change: Partial<Settings>;
 }
 
-/** The offers that change nothing fixed. */
+/** Offers that change no fixed setting. */
 export function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): Offer[] {
   return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
 }
 
 export function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
-  // Without the rounding error of a sum of bins.
+  // Removes the rounding error of a sum of bins.
   const uniform = String(Number(layer_mm.toFixed(6)));
   return { label: texts.offers.bestUniform(format.fine(layer_mm), layers), change: { planner: "uniform", uniform } };
 }
 
-/** A warning in words, and what may help. */
+/** A warning as a sentence, with offers. */
 export interface Advice {
   text: string;
   offers: Offer[];
-  /** True if test towers would tell if the printer takes several thicknesses. */
+  /** True if test towers would show whether the printer obeys the thickness of each layer. */
   towers: boolean;
-  /** The plates of the project that the model was read from; null for other warnings. */
+  /** Plates of the model's project; null for other warnings. */
   plates: PlateChoice | null;
 }
 
 /**
- * Warnings in words, each once.
+ * Warnings as sentences, each once.
  *
- * @param fixed settings that only the page may change: no offer changes them, and whether a fixed printer has been tried is the
- *   page's business
+ * @param fixed settings that only the page may change: no offer changes them, and trying out a fixed printer is up to the page
  */
 export function advise(warnings: readonly Warning[], language: Language, fixed: ReadonlySet<keyof Settings>): Advice[] {
   const advice = new Map<string, Advice>();
@@ -52,13 +51,13 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
   return [...advice.values()];
 }
 
-/** Warnings about a model; about the plate, without a name. */
+/** Warnings about a model, or without a name about the plate. */
 export interface Warned {
   readonly name: string | null;
   readonly warnings: readonly Warning[];
 }
 
-/** Warnings in words as of `advise`, each once, with the names of the models that they are about. */
+/** Warnings as sentences, as in `advise`, each once with the names of its models. */
 export function adviseOn(all: readonly Warned[], language: Language, fixed: ReadonlySet<keyof Settings>): (Advice & { readonly names: ReadonlySet<string> })[] {
   const said = new Map<string, Advice & { readonly names: Set<string> }>();
   for (const { name, warnings } of all) {
@@ -73,7 +72,7 @@ export function adviseOn(all: readonly Warned[], language: Language, fixed: Read
 
 const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
 
-/** Returns true if the printer decides on several thicknesses, not the format. */
+/** Returns true if support for several thicknesses depends on the printer, not on the format. */
 const isOfPrinter = (warning: Warning): boolean =>
   warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
 

@@ -1,6 +1,6 @@
 /**
- * Reads what a page sets on an element by attributes and properties. Valid values are applied; the rest is reported to the
- * page's developer, and the last good value stays.
+ * Reads the attributes and properties that a page sets. Valid values are applied; invalid ones are reported to the page's developer, and
+ * the last valid value stays.
  */
 import { SlicerError } from "../../api/error.js";
 import { ATTRIBUTES, SETTING_NAMES, SETTINGS, type SettingName } from "../properties.js";
@@ -15,14 +15,14 @@ export function settingsOf(names: readonly SettingName[]): ReadonlySet<keyof Set
   return new Set(names.map((name) => SETTINGS[name].sets));
 }
 
-/** Attributes that are checked here. */
+/** Attributes checked here. */
 type Name = { [N in keyof typeof ATTRIBUTES]: (typeof ATTRIBUTES)[N] extends { read: Reader<unknown> } ? N : never }[keyof typeof ATTRIBUTES];
 
 type Value<N extends Name> = (typeof ATTRIBUTES)[N]["read"] extends Reader<infer T> ? T : never;
 
 type Values = Partial<{ [N in SettingName]: Value<N> | null }>;
 
-/** A setting that the page has given, and what it was before. */
+/** A setting given by the page, and the previous one. */
 interface Given {
   said: unknown;
   before: Partial<Settings>;
@@ -32,11 +32,11 @@ interface Given {
 export class Attributes {
   readonly #preferences: Preferences;
   readonly #tell: (error: SlicerError) => void;
-  /** Settings given since the page's script began; they are checked together, in whatever order they were set. */
+  /** Settings given since the page's script began; checked together, independent of their order. */
   #turn: { base: Settings; said: Map<SettingName, unknown>; values: Values } | null = null;
   #given = new Map<SettingName, Given>();
   #errors: SlicerError[] = [];
-  /** The last wrong value of each attribute that has had no good one since: a page that renders on errors would set it for ever. */
+  /** The last invalid value of each attribute without a valid one since. Prevents an endless loop in a page that renders on errors. */
   readonly #told = new Map<Name, unknown>();
   #isScheduled = false;
 
@@ -46,7 +46,7 @@ export class Attributes {
     this.#tell = tell;
   }
 
-  /** The value of an attribute; null if it is absent or empty, undefined if it is invalid. Faults are reported. */
+  /** Value of an attribute; null if absent or empty, undefined if invalid. Faults are reported. */
   read<N extends Name>(name: N, said: unknown): Value<N> | null | undefined {
     const isNothing = said === null || said === undefined || (typeof said === "string" && said.trim() === "");
     const { value, wrong }: Read<Value<N>> = isNothing ? { value: null } : (ATTRIBUTES[name].read(said) as Read<Value<N>>);
@@ -70,7 +70,7 @@ export class Attributes {
     this.#schedule();
   }
 
-  /** Checks what was given so far. Called automatically once the page's script has ended. */
+  /** Checks the settings given so far. Called automatically once the page's script has ended. */
   settle(): void {
     const turn = this.#turn;
     this.#turn = null;
@@ -83,7 +83,7 @@ export class Attributes {
     for (const error of this.#errors.splice(0)) this.#tell(error);
   }
 
-  /** Checks the settings again, with the lists of printers and resins that have arrived. */
+  /** Checks the settings again when the lists of printers or resins arrive. */
   offered(): void {
     this.settle();
     this.#judge(SETTING_NAMES);
@@ -104,13 +104,13 @@ export class Attributes {
     }
   }
 
-  /** Returns true if the setting is still as given. */
+  /** Returns true if the setting has not changed since the page gave it. */
   #holds({ after }: Given): boolean {
     const { settings } = this.#preferences;
     return (Object.keys(after) as (keyof Settings)[]).every((key) => settings[key] === after[key]);
   }
 
-  /** What is wrong with a setting, given the others; null if it is valid. */
+  /** Fault of a setting, given the others; null if valid. */
   #wrong(name: SettingName): Wrong | null {
     const { faults, settings, printers, resins } = this.#preferences;
     const within = (fault: Fault | undefined, scale = 1): Wrong | null => (fault === undefined ? null : { words: said(fault, scale) });
@@ -148,7 +148,7 @@ export class Attributes {
   }
 }
 
-/** What is wrong with an unknown name; while the list has not arrived, any name passes. */
+/** Fault of an unknown name. Any name is valid until the list has arrived. */
 function unknown(name: string, known: readonly string[]): Wrong | null {
   return name === "" || known.length === 0 || known.includes(name) ? null : noneOf(known);
 }
@@ -168,7 +168,7 @@ function pick<Key extends keyof Settings>(settings: Settings, key: Key): Pick<Se
   return { [key]: settings[key] } as Pick<Settings, Key>;
 }
 
-/** The change of settings that these values make; null means the default. */
+/** Change of settings for these values; null means the default. */
 function patchOf(values: Values, base: Settings): Partial<Settings> {
   const { printer, resin, format, metric, tolerance } = values;
   const [thinnest, thickest] = [values["layer-min"], values["layer-max"]];

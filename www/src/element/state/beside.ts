@@ -1,7 +1,4 @@
-/**
- * Fetches what is shown beside a plan: the mask of the selected layer, the price, what will fail if somebody wants to know, then the
- * trade-off curve.
- */
+/** Background queries after a plan: the mask of the selected layer, the price, the findings if requested, then the trade-off curve. */
 import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
 import type { Mask, Ordered, Slicer } from "../../api/index.js";
 import type { Price, Prices } from "../../api/wire.js";
@@ -16,7 +13,7 @@ export interface Looked {
   readonly layer: number;
 }
 
-/** What a shop asks, and the finish that is ordered. */
+/** Prices of a shop, and the finish ordered. */
 export interface Asked extends Omit<Ordered, "copies"> {
   readonly prices: Prices;
 }
@@ -29,13 +26,13 @@ export interface BesideHost {
   curved(): void;
   failed(error: unknown): void;
   priced(price: Price): void;
-  /** The page's prices cannot be used. */
+  /** Called if the page's prices are invalid. */
   mispriced(error: SlicerError): void;
 }
 
 export class Beside {
   mask: Mask | null = null;
-  /** What the last result costs, by {@link asked}. */
+  /** Price of the last result by {@link asked}. */
   price: Price | null = null;
   readonly #looked: Looked;
   readonly #host: BesideHost;
@@ -56,8 +53,8 @@ export class Beside {
   }
 
   /**
-   * Fetches what is missing, one call at a time. Does nothing while a task runs: the worker would not answer, and this is
-   * called again when the task ends.
+   * Fetches missing results, one call at a time. Does nothing while a task runs: the worker would not answer. It is called again at the end
+   * of the task.
    */
   async fetch(): Promise<void> {
     if (this.#isFetching) return;
@@ -101,7 +98,7 @@ export class Beside {
     void this.fetch();
   }
 
-  /** Fetches what the result costs; false if nobody asks, or it is known. */
+  /** Fetches the price of the result; returns false if not needed. */
   async #fetchPrice(result: Result): Promise<boolean> {
     const asked = this.#asked;
     if (asked === null || this.#priceOf === result) return false;
@@ -119,7 +116,7 @@ export class Beside {
     return true;
   }
 
-  /** Fetches the mask of the newest selected layer; false if there was none to fetch. */
+  /** Fetches the mask of the selected layer; returns false if not needed. */
   async #fetchMask(result: Result): Promise<boolean> {
     const { layer } = this.#looked;
     if (this.mask?.layer === layer && this.#maskOf === result) return false;
@@ -132,7 +129,7 @@ export class Beside {
     return true;
   }
 
-  /** Fetches the trade-off curve; false if there was none to fetch. */
+  /** Fetches the trade-off curve; returns false if not needed. */
   async #fetchCurve(result: Result): Promise<boolean> {
     if (!(await this.#curve.fetch(this.#slicer, result))) return false;
     this.#host.changed();

@@ -1,20 +1,20 @@
-/** What was found on each model of a plan. */
+/** Findings on each model of a plan. */
 import type { Check } from "../../api/index.js";
 import type { Finding, Printability, Report } from "../../api/wire.js";
 
-/** What was found on a model, or on those of its copies that stand alike. */
+/** Findings on a model, or on those of its copies with the same turn. */
 export interface Checked {
-  /** The model, by its place; null for a model alone. */
+  /** Index of the model; null for a single model. */
   readonly model: number | null;
-  /** Places of these copies from the first one, mm. */
+  /** Offsets of these copies from the first, mm. */
   readonly copies_mm: readonly (readonly [number, number])[];
-  /** Findings are where the model stands; of several copies, where the first does. */
+  /** Findings at the place of the model; for several copies, of the first. */
   readonly found: Pick<Printability, "findings" | "counts">;
 }
 
 type Place = readonly [number, number, number];
 
-/** The models of a check, with their findings at their places on the plate. */
+/** The models of a check, with findings moved to their places on the plate. */
 export function checkedOf(check: Check, { plate_count, placements: all }: Report): readonly Checked[] {
   const isAlone = plate_count === 1 && all.length === 1;
   return check.models.map(({ model, turn_deg, findings, counts }) => {
@@ -25,7 +25,7 @@ export function checkedOf(check: Check, { plate_count, placements: all }: Report
   });
 }
 
-/** A finding on each copy that stands like the one it is on, which comes first. */
+/** The finding on each copy with the same turn, its own copy first. */
 export function onCopies(finding: Finding, models: readonly Checked[]): readonly Finding[] {
   const copies_mm = models.find(({ found }) => found.findings.includes(finding))?.copies_mm ?? [];
   return copies_mm.map((place_mm) => moved(finding, place_mm));

@@ -34,7 +34,7 @@ async function answer(check: Check): Promise<void> {
   await settle();
 }
 
-/** Plans again, for another tolerance. */
+/** Plans again with another tolerance. */
 async function replanned(tolerance: string): Promise<void> {
   session.change({ tolerances: { ...session.settings.tolerances, volume: tolerance } });
   await settle();

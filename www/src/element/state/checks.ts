@@ -11,15 +11,15 @@ export interface ChecksHost {
   /** The plan shown; null without one. */
   readonly result: Result | null;
   changed(): void;
-  /** A check is wanted now. */
+  /** Called when a check should run now. */
   wanted(): void;
   checked(check: Check): void;
   unchecked(error: SlicerError): void;
-  /** A finding was chosen: its first layer is to be shown. */
+  /** Called when a finding is chosen, with its first layer. */
   look(layer: number): void;
 }
 
-/** What a check is of. */
+/** Input of a check. */
 interface Subject {
   readonly result: Result;
   readonly limits: Limits | null;
@@ -28,9 +28,9 @@ interface Subject {
 const NO_MARKS: readonly Finding[] = [];
 
 export class Checks {
-  /** The last check, which may be of an earlier plan. */
+  /** The last check, possibly of an earlier plan. */
   last: Check | null = null;
-  /** The models of that check. */
+  /** Models of that check, with their findings. */
   models: readonly Checked[] = [];
   readonly #host: ChecksHost;
   readonly #slicer: Pick<Slicer, "check">;
@@ -40,7 +40,7 @@ export class Checks {
   #marks = NO_MARKS;
   #showsWalls = false;
   #error: SlicerError | null = null;
-  /** The plan and the limits of the last check, or of its failure. */
+  /** Input of the last check or of its failure. */
   #of: Subject | null = null;
 
   constructor(host: ChecksHost, slicer: Pick<Slicer, "check">) {
@@ -48,7 +48,7 @@ export class Checks {
     this.#slicer = slicer;
   }
 
-  /** What a shop accepts. With limits every plan is checked; without them, while a panel shows the findings. */
+  /** A shop's acceptance limits. With limits, every plan is checked; without, only while a panel shows the findings. */
   get limits(): Limits | null {
     return this.#limits;
   }
@@ -66,13 +66,13 @@ export class Checks {
   set isOpen(isOpen: boolean) {
     if (isOpen === this.#isOpen) return;
     this.#isOpen = isOpen;
-    // What could not be fetched may be there by now.
+    // Retries code that could not be loaded.
     if (isOpen && this.#error?.code === "part-failed") this.#of = null;
     this.#host.changed();
     if (isOpen) this.#host.wanted();
   }
 
-  /** Returns true if the view shows how thick the model is: a picture, which no check depends on. */
+  /** Returns true if the view shows wall thickness, on which no check depends. */
   get showsWalls(): boolean {
     return this.#showsWalls;
   }
@@ -81,7 +81,7 @@ export class Checks {
     this.#host.changed();
   }
 
-  /** What counts as a thin wall, mm. */
+  /** Walls thinner than this are thin, mm. */
   get wall_mm(): number {
     return this.#limits?.wall_mm ?? FACTS.limits.wall_mm;
   }
@@ -91,27 +91,27 @@ export class Checks {
     return this.#of !== null && this.#isNow(this.#of);
   }
 
-  /** The check of the plan shown; null until it is made. */
+  /** The check of the plan shown; null until known. */
   get check(): Check | null {
     return this.isCurrent && this.#error === null ? this.last : null;
   }
 
-  /** Why the plan shown could not be checked; null if it could, or has not been yet. */
+  /** Error of the check of the plan shown; null if it succeeded or has not run yet. */
   get error(): SlicerError | null {
     return this.isCurrent ? this.#error : null;
   }
 
-  /** The finding that is chosen, also once no panel shows it any more; null if the plan is another. */
+  /** The chosen finding, even if no panel shows it any more; null if the plan has changed. */
   get chosen(): Finding | null {
     return this.check === null ? null : this.#chosen;
   }
 
-  /** The chosen finding on each copy that stands alike; empty without one. */
+  /** The chosen finding on each copy with the same turn; empty without one. */
   get marks(): readonly Finding[] {
     return this.chosen === null ? NO_MARKS : this.#marks;
   }
 
-  /** Chooses a finding of the current check and shows its first layer; the chosen one again, or null, clears the choice. */
+  /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
   choose(finding: Finding | null): void {
     this.#chosen = finding === this.chosen ? null : finding;
     this.#marks = this.#chosen === null ? NO_MARKS : onCopies(this.#chosen, this.models);
@@ -119,7 +119,7 @@ export class Checks {
     else this.#host.look(this.chosen.layers[0]);
   }
 
-  /** Checks a plan; false if that is done, or nobody wants to know. */
+  /** Checks a plan; returns false if not needed. */
   async fetch(result: Result): Promise<boolean> {
     const limits = this.#limits;
     const of = { result, limits };
@@ -140,7 +140,7 @@ export class Checks {
     return true;
   }
 
-  /** Forgets everything: another model was opened. */
+  /** Forgets everything, as when another model is opened. */
   forget(): void {
     this.last = this.#chosen = this.#error = this.#of = null;
     this.models = [];

@@ -22,7 +22,7 @@ test("where uniform layers are enough, the sentence says so, and they are offere
   expect(sentence(cube)).toMatch(/^Uniform layers of 0.065\u00a0mm \(923\) do about as well within 0.065/);
   expect(enough(cube)?.layers).toBe(923);
   expect(enough(compared({}))).toBeNull();
-  // More layers than uniform ones, as flats cost some.
+  // The plan has more layers than the uniform one, since flats require some.
   expect(sentenceIn(compared({ print_time_s: 10_300 }), languageOf("en"), "time")).toMatch(/^Uniform layers of 0.065/);
 });
 

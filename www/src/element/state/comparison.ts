@@ -1,13 +1,13 @@
-/** Compares the plan with uniform layers, as rows and as one sentence. */
+/** Comparison of the plan with uniform layers, as rows and as a sentence. */
 import type { Minimize, Report, BestUniform } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
 import type { Result } from "./result.js";
 
-/** What is compared: a result without its profile. */
+/** Input of a comparison: a result without its profile. */
 export type Compared = Pick<Result, "report" | "limits" | "options">;
 
-/** The plan itself, or uniform layers: the best within tolerance, or those at an end of the range of thicknesses. */
+/** The plan itself, or uniform layers: the best within tolerance, or those at either end of the range of thicknesses. */
 export type Kind = "own" | "best" | "finest" | "coarsest";
 
 export interface Row {
@@ -29,11 +29,11 @@ const holds = (report: Report, max_error: number): boolean => max_error <= repor
 
 const minimized = ({ options }: Pick<Compared, "options">): Minimize => options.minimize ?? "layers";
 
-/** The best uniform layers within tolerance, if there are any. */
+/** The best uniform layers within tolerance, or null. */
 const bestBy = ({ report }: Pick<Compared, "report">, by: Minimize): BestUniform | null =>
   (by === "time" ? report.uniform.quickest : report.uniform.fewest) ?? null;
 
-/** The plan between uniform layers, from thin ones to thick ones; the best within tolerance replace an end that they are. */
+/** Rows from thin to thick uniform layers, with the plan among them. The best within tolerance replace an end that they equal. */
 export function rows(compared: Compared): Row[] {
   const { report, limits } = compared;
   const row = (kind: Kind, uniform_mm: number | null, figures: Pick<Report, "layers" | "print_time_s" | "max_error">): Row => {
@@ -52,11 +52,11 @@ export function rows(compared: Compared): Row[] {
   ];
 }
 
-/** Uniform layers that do about as well as the plan, if some do. */
+/** Uniform layers that do about as well as the plan, or null. */
 export const enough = (compared: Compared): BestUniform | null =>
   compared.report.uniform.is_enough ? bestBy(compared, minimized(compared)) : null;
 
-/** What the plan gains over the best uniform layers within the same tolerance, in a sentence. */
+/** Sentence on the plan's gain over the best uniform layers within the same tolerance. */
 export function sentence(compared: Compared, { texts: { gain, metrics }, format }: Language, by = minimized(compared)): string {
   const { report, limits } = compared;
   const error = (value: number): string => METRICS[report.metric].error(value, format);

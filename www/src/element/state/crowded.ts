@@ -1,7 +1,7 @@
-/** Which copies cannot stay where they are. */
+/** Copies with faulty placements. */
 import type { ArrangeError, Placement } from "../../api/wire.js";
 
-/** The places of the copies that problems name: they count the copies of each model in the order of the placements. */
+/** Indices of the placements named by problems, which count the copies of each model in the order of the placements. */
 export function placesOf(problems: readonly ArrangeError[], placements: readonly Placement[]): ReadonlySet<number> {
   const named = problems.flatMap((problem): (readonly [model: number, copy: number])[] => {
     if (problem.code === "plate-outside") return [[problem.detail.model_number, problem.detail.copy_number]];

@@ -10,10 +10,10 @@ const point = (tolerance: number, layers: number, max_error: number, print_time_
   ...{ tolerance, layers, max_error, print_time_s },
 });
 
-/** The output of `cusp tradeoff --points 5` for an upright prism 20 mm high, by cusp height: only its flats have an error. */
+/** Output of `cusp tradeoff --points 5` for an upright prism 20 mm high, by cusp height: only its flats have an error. */
 const PRISM = Array.from({ length: 5 }, () => point(0.002, 134, 0.002, 1920));
 
-/** The first points for the same prism, by roughness. */
+/** First points for the same prism, by roughness. */
 const ROUGH = [
   point(0.052, 385, 0.052, 4200),
   point(0.05219, 385, 0.052, 4200),
@@ -56,7 +56,7 @@ test("tolerances with the same plan share one notch, that of the tightest", () =
 });
 
 test.each([
-  // Its tolerance is nearest to that of the middle point, its plan is the finest one.
+  // Its tolerance is nearest to that of the middle point, but its plan is the finest.
   [point(0.05425, 385, 0.052, 4200), 2],
   [point(0.0559, 371, 0.054, 4080), 1],
   [point(9, 358, 0.056, 3960), 0],

@@ -31,7 +31,7 @@ test("the chosen cost and quality decide what is compared", () => {
 test("what reads the same is no difference, and only the cost is said to be the same", () => {
   expect(words({})).toEqual(["Same number of layers"]);
   expect(words({ max_error: 0.0604, overhang_mm2: 50.4 })).toEqual(["Same number of layers"]);
-  // On either side of a rounding boundary, and less than the last digit apart.
+  // On either side of a rounding boundary, but less than one unit of the last digit apart.
   expect(words({ max_error: 0.0596, overhang_mm2: 49.4, print_time_s: 7169 }, { cost: "time" })).toEqual(["1\u00a0min quicker", "1\u00a0mm² less overhang"]);
   expect(words({ print_time_s: 7181 }, { cost: "time" })).toEqual(["Same print time"]);
 });

@@ -1,4 +1,4 @@
-/** The metrics of orientations as people read them, and what one orientation has more or less of than another. */
+/** Metrics of orientations as text, and differences between two orientations. */
 import type { Candidate, Metric } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRICS } from "./metric.js";
@@ -6,7 +6,7 @@ import type { Aims } from "./orientation.js";
 
 export type Metrics = NonNullable<Candidate["metrics"]>;
 
-/** What orientations are compared by. */
+/** Metrics by which orientations are compared. */
 export type Term = Aims["cost"] | Aims["quality"];
 
 const MICROMETRES = 1000;
@@ -23,7 +23,7 @@ const VALUES: Readonly<Record<Term, (metrics: Metrics) => number>> = {
   contacts: ({ contact_mm2 }) => contact_mm2,
 };
 
-/** Writes values of a term, with their unit. */
+/** Formatter for values of a term, with unit. */
 function writer(term: Term, metric: Metric, { format }: Language): (value: number) => string {
   switch (term) {
     case "layers":
@@ -44,14 +44,14 @@ function writer(term: Term, metric: Metric, { format }: Language): (value: numbe
   }
 }
 
-/** A metric with its unit: of errors, in that of `metric`. */
+/** A metric with its unit; errors are in that of `metric`. */
 export function figure(term: Term, metrics: Metrics, metric: Metric, language: Language): string {
   return writer(term, metric, language)(VALUES[term](metrics));
 }
 
 /**
- * What `its` has more or less of than `now`: the chosen cost, the chosen quality, and the overhang, which may need support
- * whatever was chosen. What reads the same is left out, except that the cost is said to be the same.
+ * Differences of `its` from `now`: the chosen cost, the chosen quality, and the overhang, which may need supports in any case. Values that
+ * read the same are omitted, but an equal cost is stated.
  */
 export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims, metric: Metric, language: Language): string[] {
   const { metrics: names, orientation } = language.texts;

@@ -1,4 +1,4 @@
-/** The last failure in words. What makes them is fetched with the first failure. */
+/** Explanation of the last failure. The code is fetched with the first failure. */
 import type { Language } from "../../texts/index.js";
 import type { Failure, Problem } from "./problem.js";
 import type { Settings } from "./settings.js";
@@ -14,7 +14,9 @@ export class Explaining {
     this.#changed = changed;
   }
 
-  /** Null if nothing failed, and until the words are there. The same failure in other words keeps those before until then. */
+  /**
+   * Null if nothing failed, or until the explanation is loaded. The same failure in another language keeps the old explanation until then.
+   */
   of(...[failure, language, fixed]: readonly [Failure | null, Language, ReadonlySet<keyof Settings>]): Problem | null {
     if (failure !== this.#asked?.[0]) this.#problem = null;
     if (failure === null) this.#asked = null;
@@ -36,7 +38,7 @@ async function explained(asked: Asked): Promise<Problem> {
     const { explained } = await import("./problem.js");
     return await explained(...asked);
   } catch {
-    // Without a connection, say: the core's own sentence is better than none.
+    // If the code cannot be loaded, as without a connection, shows the core's own sentence.
     const [{ error: { code, message } }] = asked;
     return { code, title: message, text: "", offers: [], field: null };
   }

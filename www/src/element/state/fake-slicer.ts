@@ -17,7 +17,7 @@ export function planOf(layers: number, height_mm = 10): Plan {
 
 /** A slicer whose calls the test resolves or rejects one by one. */
 export class FakeSlicer {
-  // What a test of several models gives, it puts in place of these.
+  // Replaced by tests of several models.
   add: Slicer["add"] = absentSlicer().add;
   update: Slicer["update"] = absentSlicer().update;
   remove: Slicer["remove"] = absentSlicer().remove;

@@ -1,4 +1,4 @@
-/** Follows a model that is being turned or painted with previews: plans from the facets alone. */
+/** Live previews while a model is being turned or painted: plans from the facets alone. */
 import type { Slicer } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
 import { shownOf, type Shown } from "./result.js";
@@ -6,13 +6,13 @@ import { shownOf, type Shown } from "./result.js";
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
 export class Follower {
-  /** The rotation of the model while the user is turning it; null otherwise. */
+  /** Rotation of the model while the user is turning it; otherwise null. */
   turning: Rotation | null = null;
   readonly #slicer: Pick<Slicer, "preview">;
   readonly #show: (shown: Shown) => void;
   #running = false;
   #next: Options | null = null;
-  /** Number of stops: previews requested before the last one are ignored. */
+  /** Number of stops; previews requested before the last one are ignored. */
   #stops = 0;
 
   constructor(slicer: Pick<Slicer, "preview">, show: (shown: Shown) => void) {
@@ -26,7 +26,7 @@ export class Follower {
     if (options !== null) void this.follow({ ...options, rotation: [...turning] });
   }
 
-  /** Previews the newest options, one at a time; intermediate ones are skipped. */
+  /** Previews the newest options, one call at a time; intermediate ones are skipped. */
   async follow(options: Options): Promise<void> {
     this.#next = options;
     if (this.#running) return;
@@ -39,13 +39,13 @@ export class Follower {
         if (this.#stops === stops) this.#show(shownOf(report, profile));
       }
     } catch {
-      // Without a feasible plan there is nothing to show; the plan made when the model is released reports that.
+      // Without a feasible plan, nothing is shown; the plan made on release reports the error.
     } finally {
       this.#running = false;
     }
   }
 
-  /** Ends the previews, as when the model is released. */
+  /** Ends the previews, as on release of the model. */
   stop(): void {
     this.turning = null;
     this.#next = null;

@@ -17,7 +17,7 @@ const optionsOf = (settings: Settings) => {
   return checked.options;
 };
 
-/** The points of settings after a plan of them, which had this report. */
+/** Points of the settings after a plan with this report. */
 function shown(kind: PlacedKind, change: Partial<Settings>, own: Partial<ModelReport> | null, isCurrent = true): HandPoints {
   const settings = { ...DEFAULT_SETTINGS, ...change };
   const options = optionsOf(settings);
@@ -94,7 +94,7 @@ test("holes are taken, added and placed anew likewise, in the direction that the
   const change = added(points, pointAt("drains", TO, 2.5), settings);
   expect(change).toEqual({ drains: "1,0,0,-1,0,0,3,0;5,5,5,0,0,1,2.5,1", drain: "none" });
   const edited = shown("drains", { ...hollow, ...change }, { hollowed });
-  // The second one meets no void.
+  // The second hole meets no void.
   expect(edited.list.map(({ isUnreached }) => isUnreached)).toEqual([false, true]);
   expect(automatic(edited, { ...settings, ...change })).toEqual({ drains: "5,5,5,0,0,1,2.5,1", drain: "auto" });
   expect(removed(shown("drains", { ...hollow, ...change, drains: "5,5,5,0,0,1,2.5,1" }, { hollowed }), 0, settings)).toEqual({ drains: "", drain: "none" });
@@ -124,6 +124,6 @@ test("another pose has no points by hand, and its own automatic ones", () => {
   expect(changed(settings, { height: "20" })).toMatchObject(automatic);
   expect(changed(settings, { unit: "inch" })).toMatchObject(automatic);
   expect(changed(settings, { rotation: "", supports: "heavy" })).toEqual({ ...settings, supports: "heavy" });
-  // Without any, the choice of holes stays.
+  // Without drain holes by hand, their setting stays.
   expect(changed({ ...DEFAULT_SETTINGS, drain: "none" }, { height: "20" }).drain).toBe("none");
 });

@@ -1,6 +1,6 @@
 /** Undo and redo of any value. */
 
-/** Changes of one kind within this time of each other are one step, like the letters of a word. */
+/** Changes of one kind within this time of each other form one step, like the letters of a word. */
 const TOGETHER_MS = 1000;
 const MOST_STEPS = 100;
 
@@ -25,7 +25,7 @@ export class History<T> {
     if (!isMore) this.#past = [...this.#past, before].slice(-MOST_STEPS);
   }
 
-  /** The value to go back to from `now`; null if there is none. */
+  /** The previous value, given the current one; null if there is none. */
   undo(now: T): T | null {
     const before = this.#past.pop();
     if (before === undefined) return null;
@@ -42,7 +42,7 @@ export class History<T> {
     return after;
   }
 
-  /** Forgets the steps that lead to the same value, seen in another light, and those undone. */
+  /** Forgets the steps whose values are the same by `isSame`, and those undone. */
   forget(isSame: (before: T, after: T) => boolean, now: T): void {
     this.#past = this.#past.filter((value, place) => !isSame(value, this.#past[place + 1] ?? now));
     this.#future = [];

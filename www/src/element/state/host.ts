@@ -1,4 +1,4 @@
-/** What a session is given: its host, the slicer that it calls, and its initial settings. */
+/** Interfaces of a session: its host, the slicer that it calls, and its initial settings. */
 import type { SlicerError } from "../../api/error.js";
 import type { Check, Model, Slicer } from "../../api/index.js";
 import type { Backend, Candidate, Price } from "../../api/wire.js";
@@ -8,27 +8,27 @@ import type { ModelCalls } from "./selected.js";
 import type { Settings } from "./settings.js";
 import type { SyncCalls } from "./sync.js";
 
-/** What a session reports to its host. */
+/** Callbacks of a session to its host. */
 export interface Host {
   requestUpdate(): void;
-  /** Returns true if it shows the model. */
+  /** Returns true if the host shows the model. */
   hasView?(): boolean;
   loaded?(model: Model): void;
   planned?(result: Result): void;
   failed?(error: SlicerError): void;
-  /** A plan was checked for what will fail. */
+  /** Called when a plan has been checked. */
   checked?(check: Check): void;
-  /** A plan could not be checked; it stays. */
+  /** Called when a plan could not be checked; the plan stays. */
   unchecked?(error: SlicerError): void;
   cancelled?(): void;
   progressed?(busy: Busy): void;
   settingsChanged?(settings: Settings): void;
-  /** The list of printers has arrived. */
+  /** Called when the list of printers has arrived. */
   offered?(): void;
   painted?(weights: Float32Array | null, isFinal: boolean): void;
   oriented?(candidate: Candidate): void;
   priced?(price: Price): void;
-  /** The page's prices cannot be used. */
+  /** Called if the page's prices are invalid. */
   mispriced?(error: SlicerError): void;
 }
 

@@ -1,22 +1,22 @@
-/** The metrics: their units, and how their values are written. Their names are in the text catalogues. */
+/** Metrics: their units, and formatting of their values. Their names are in the text catalogues. */
 import type { Metric } from "../../api/wire.js";
 import type { Format } from "../../texts/index.js";
 import type { FieldUnit } from "./typed.js";
 
 export interface Measure {
-  /** The unit that tolerances are typed in. */
+  /** Unit in which tolerances are typed. */
   unit: FieldUnit;
-  /** The factor from the core's unit to that unit. */
+  /** Factor from the core's unit to that unit. */
   scale: number;
-  /** Smallest and largest valid tolerance, in that unit: the largest is not above what layers of 1 mm can reach. */
+  /** Smallest and largest valid tolerance, in that unit; the largest is at most the error of layers of 1 mm. */
   tolerances: readonly [number, number];
-  /** An error or a tolerance with its unit. */
+  /** Formats an error or a tolerance with its unit. */
   error(value: number, format: Format): string;
-  /** A value of the profile as a number on its axis. */
+  /** Formats a value of the profile for its axis, without unit. */
   tick(value: number, format: Format): string;
-  /** A value of the profile with its unit. */
+  /** Formats a value of the profile with its unit. */
   density(value: number, format: Format): string;
-  /** The greatest value that a profile can have; null if it depends on the model. */
+  /** Greatest possible value of a profile; null if it depends on the model. */
   bound: number | null;
 }
 

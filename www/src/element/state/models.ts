@@ -1,4 +1,4 @@
-/** The models of a session: opened, added, selected and painted. One task at a time reads them, or works with them. */
+/** The models of a session: opens, adds, selects and paints them, one task at a time. */
 import { asSlicerError, isAbort } from "../../api/error.js";
 import type { Model, Plan, Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
@@ -14,23 +14,23 @@ import { Runner } from "./runner.js";
 import { aboutSelected, type ModelCalls } from "./selected.js";
 import { check, withoutPlaced, type Settings } from "./settings.js";
 
-/** What the core finds wrong with a printer's description. */
+/** Codes with which the core refuses a printer's description. */
 const OF_PRINTER: ReadonlySet<string> = new Set(["bad-options", "bad-printer"]);
 
 export abstract class Models extends Preferences {
-  /** The open model: if there are several, the selected one. */
+  /** The open model, or the selected one of several. */
   model: Model | null = null;
   failure: Failure | null = null;
-  /** A notice to show that is not a failure. */
+  /** Notice that is not a failure. */
   notice: "cancelled" | "exportCancelled" | null = null;
-  /** How much each facet matters, 0 to 1, as painted; null: all equally. */
+  /** Importance of each facet, 0 to 1, as painted; null: all equal. */
   weights: Float32Array | null = null;
-  /** The corners of the facets of the open model for a view; null if they did not come with it. */
+  /** Corners of the open model's facets for a view; null if not read together with it. */
   positions: Float32Array | null = null;
-  /** Files that were opened together, and the index of the open one. */
+  /** Files opened together, and the index of the open one. */
   files: readonly File[] = [];
   place = 0;
-  /** The models, of which {@link model} is the selected one. */
+  /** All models, of which {@link model} is the selected one. */
   readonly plate: Plate;
   /** Calls of the slicer about the selected model. */
   readonly selected: ModelCalls;
@@ -66,21 +66,21 @@ export abstract class Models extends Preferences {
   protected abstract replate(): void;
   /** Shows the plan of another plate, for the same options. */
   protected abstract showPlate(plan: Plan): void;
-  /** Forgets what belongs to another model; with `isNew`, also what belongs to its plan. */
+  /** Forgets the state of the previous model; with `isNew`, also that of its plan. */
   protected abstract left(isNew: boolean): void;
-  /** Does what had to wait for a task. */
+  /** Continues work that waited for the end of a task. */
   protected abstract resume(): Promise<void>;
-  /** Aborts the running task, and drops any waiting one. */
+  /** Aborts the running task, and drops any pending one. */
   protected abstract drop(): void;
   /** Previews the weights during a stroke, or plans with them at its end. */
   protected abstract painted(isFinal: boolean): void;
 
-  /** The progress of the running task; null if none runs. */
+  /** Progress of the running task; null if none runs. */
   get busy(): Busy | null {
     return this.runner.busy;
   }
 
-  /** Opens the first model of a drop or a file dialog and keeps the others; null if that failed or was cancelled. */
+  /** Opens the first model of a drop or a file dialog and keeps the others; null if this failed or was cancelled. */
   async choose(files: readonly File[]): Promise<Model | null> {
     if (files.length === 0) return null;
     const { files: before, place } = this;
@@ -91,7 +91,7 @@ export abstract class Models extends Preferences {
     return model;
   }
 
-  /** Opens another of the files that were opened together; null if that failed or was cancelled. */
+  /** Opens another of the files opened together; null if this failed or was cancelled. */
   async openFile(place: number): Promise<Model | null> {
     const file = this.files[place];
     if (file === undefined) return null;
@@ -100,16 +100,16 @@ export abstract class Models extends Preferences {
   }
 
   /**
-   * Opens a single model; null if that failed or was cancelled.
+   * Opens a single model; null if this failed or was cancelled.
    *
-   * @param waits whether its plan has to wait, as for other models
+   * @param waits true if its plan must wait, as for further models
    */
   async open(source: Source, name?: string, waits = false): Promise<Model | null> {
     this.files = [];
     return this.#open(source, name, waits);
   }
 
-  /** Opens all models of a drop or a file dialog, as models of one job; null if the first cannot be opened or that was cancelled. */
+  /** Opens all models of a drop or a file dialog as one job; null if the first cannot be opened or if cancelled. */
   async openAll(files: readonly File[]): Promise<Model | null> {
     const [first, ...others] = choose(files);
     if (first === undefined) return null;
@@ -125,7 +125,7 @@ export abstract class Models extends Preferences {
     return model === null ? null : [model];
   }
 
-  /** Adds models, each in a pose and with copies of its own; without an open one, opens the first. Null if that failed or was cancelled. */
+  /** Adds models, each with its own pose and copies; if none is open, opens the first. Null if this failed or was cancelled. */
   async addAll(added: readonly Added[]): Promise<readonly Model[] | null> {
     const [first, ...others] = added;
     if (first === undefined) return [];
@@ -139,7 +139,7 @@ export abstract class Models extends Preferences {
     this.dismiss();
     const entries = await this.run("open", first.name ?? nameOf(first.source), null, (watch) => this.plate.add(added, { ...watch, ...this.#shown() }));
     if (entries === null) {
-      // What went wrong stays on show, and so does the plan before.
+      // The failure stays visible, and so does the previous plan.
       await this.resume();
       return null;
     }
@@ -169,14 +169,14 @@ export abstract class Models extends Preferences {
     this.painted(isFinal);
   }
 
-  /** Chooses the printer that a file describes. One that the core refuses changes nothing, and the failure is shown. */
+  /** Chooses the printer described by a file. If the core refuses it, nothing changes, and the failure is shown. */
   async openPrinter(file: File): Promise<void> {
     if (this.fixed.has("printer")) return;
     let { settings } = this;
     try {
       const printer = await readPrinter(file);
       settings = { ...settings, printer };
-      // The core checks a printer with any options; of all calls, this one needs no model.
+      // The core checks a printer with any options; this is the one such call that needs no model.
       await this.slicer.calibrateLayers({ printer }).catch((error: unknown) => {
         if (OF_PRINTER.has(asSlicerError(error).code)) throw error;
       });
@@ -197,7 +197,7 @@ export abstract class Models extends Preferences {
     }
   }
 
-  /** A file of the current weights; null if there are none. */
+  /** File of the current weights; null if there are none. */
   async saveWeights(): Promise<Download | null> {
     const { weights, model } = this;
     if (weights === null || model === null) return null;
@@ -210,13 +210,15 @@ export abstract class Models extends Preferences {
     this.changed();
   }
 
-  /** Reads the selected model again with other choices, as another plate of its project; null if that failed or was cancelled. */
+  /**
+   * Reads the selected model again with other reading options, such as another plate of its project; null if this failed or was cancelled.
+   */
   async reread(reading: ReadOptions): Promise<Model | null> {
     const { model } = this;
     return model === null ? null : this.#open(model.file, model.name, false, reading);
   }
 
-  /** @param reading that of the selected model, in whose place it is read again */
+  /** @param reading options for reading the selected model again in place */
   async #open(source: Source, name?: string, waits = false, reading?: ReadOptions): Promise<Model | null> {
     this.start();
     this.drop();
@@ -232,7 +234,7 @@ export abstract class Models extends Preferences {
       return null;
     }
     const { positions, model } = loaded;
-    // The rotation of the previous model does not apply to this one, nor do its unit and its points.
+    // The rotation, unit and points of the previous model do not apply to this one.
     const foreign = { ...withoutPlaced(this.settings), rotation: "", unit: "" } as const;
     if (this.model !== null && Object.entries(foreign).some(([key, value]) => this.settings[key as keyof Settings] !== value)) this.preset(foreign);
     this.model = model;
@@ -245,7 +247,7 @@ export abstract class Models extends Preferences {
     return model;
   }
 
-  /** Takes another model of the plate as the open one. */
+  /** Makes another model of the plate the open one. */
   #select(entry: Entry): void {
     this.left(false);
     const { model, weights, pose } = entry;
@@ -257,12 +259,12 @@ export abstract class Models extends Preferences {
     this.replate();
   }
 
-  /** Corners come with a model that is shown. */
+  /** Requests the corners if the host shows the model. */
   #shown(): { positions?: true } {
     return this.host.hasView?.() === true ? { positions: true } : {};
   }
 
-  /** Keeps the pose of the selected model, which the settings have while it is selected. */
+  /** Stores the pose of the selected model, which is in the settings while it is selected. */
   protected keepPose(): void {
     this.plate.keep(this.#posed());
   }
@@ -283,7 +285,7 @@ export abstract class Models extends Preferences {
     return true;
   }
 
-  /** The pose that the settings say; as options, unless a setting is invalid. */
+  /** The pose in the settings; also as options, unless a setting is invalid. */
   #posed(): Posed {
     const { rotation, height, points, fill, drains, drain } = this.settings;
     const pose = { rotation, height, points, fill, drains, drain };
@@ -291,20 +293,20 @@ export abstract class Models extends Preferences {
     return { pose, ...(own !== null && { own }) };
   }
 
-  /** The options of a model in a pose, by the settings now; null if one is invalid. */
+  /** Options of a model in a pose, with the current settings; null if one is invalid. */
   #ownOf(pose: Pose): Own | null {
     const { printers, resins } = this;
     const checked = check(posedSettings(this.settings, pose), { printers, resins });
     return checked.ok ? ownOf(checked.options) : null;
   }
 
-  /** Shows why something cannot be used. */
+  /** Shows the reason for which something cannot be used. */
   refuse(error: unknown, name: string, settings = this.settings): void {
     this.fail(error, name, settings);
     this.changed();
   }
 
-  /** Runs one task and shows its progress; null if it was cancelled or failed. A failure is shown. */
+  /** Runs one task and shows its progress and any failure; null if it was cancelled or failed. */
   protected run<T>(kind: Busy["task"], name: string, options: Options | null, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { settings, weights } = this;
     return this.runner.run({ kind, name, options, weights }, (error) => this.fail(error, name, settings, kind), call);
@@ -323,18 +325,18 @@ export abstract class Models extends Preferences {
   }
 }
 
-/** The options of a model alone. */
+/** The part of the options that belongs to a single model. */
 function ownOf({ rotation, height_mm, hollow, supports }: Options): Own {
   return { ...(rotation !== undefined && { rotation }), ...(height_mm !== undefined && { height_mm }), ...(hollow && { hollow }), ...(supports && { supports }) };
 }
 
-/** The settings for a model in a pose. Whether holes are made automatically holds for all that have none by hand. */
+/** Settings for a model in a pose. Automatic drain holes are a shared setting for all models without holes by hand. */
 function posedSettings(settings: Settings, { rotation, height, points, fill, drains, drain }: Pose): Settings {
   const own = { rotation, height, ...(points !== "" && { points, fill }), ...(drains !== "" && { drains, drain }) };
   return { ...settings, ...withoutPlaced(settings), ...own };
 }
 
-/** What a source is called while it is read. */
+/** Name of a source while it is read. */
 function nameOf(source: Source): string {
   if (source instanceof File) return source.name;
   return source instanceof URL || typeof source === "string" ? (String(source).split("/").at(-1) ?? "") : "";

@@ -1,4 +1,4 @@
-/** The ways out of settings that no plan fits, tried on the core itself. */
+/** Tests of the offers for infeasible settings against the core. */
 import { beforeAll, expect, test } from "vitest";
 import type { Job } from "../../../pkg/cusp_slicer.js";
 import { jobOf, planOf, startCore } from "../../api/core.node-fixture.js";
@@ -17,7 +17,7 @@ const HEIGHT_MM = 20;
 
 beforeAll(startCore);
 
-/** Plans a ball as the page does: a report, or the error of the core. */
+/** Plans a ball as the page does: a report, or the core's error. */
 async function planned(job: Job, settings: Settings): Promise<Report | SlicerError> {
   const checked = check(settings);
   if (!checked.ok) throw new Error(JSON.stringify(checked.faults));

@@ -11,7 +11,7 @@ beforeAll(async () => {
 test("candidates come through the core as they are", () => {
   const metrics = { layers: 10, print_time_s: 20, max_error: 0.5, roughness_mm: 0.25, overhang_mm2: 30, islands: 4, cups_mm2: 5, support_ml: 0.5, contact_mm2: 2 };
   const candidate = (changed: Partial<Candidate>): Candidate => ({ direction: [0, 0.6, 0.8], rotation: [0.1, 0.2, 0.3, 0.9], size_mm: [1, 2, 3], excluded: null, metrics, energy: null, ...changed });
-  // What a direction is excluded for by its metrics depends on the limits of the search.
+  // Exclusion of a direction by its metrics depends on the limits of the search.
   const given = [candidate({}), ...(["too-large", "too-high", "no-plan"] as const).map((excluded) => candidate({ excluded, metrics: null }))];
   const through = (search: SearchOptions): unknown => unpacked(OrientationSearch.of_measured(search, packed(given)).rated());
   expect(through({})).toEqual(given.map((it) => ({ ...it, energy: it.excluded === null ? 1 : null })));
@@ -20,7 +20,7 @@ test("candidates come through the core as they are", () => {
 });
 
 test("the initial aims of the panel are the core's defaults", () => {
-  // Any other aims give two candidates with metrics like these different energies.
+  // Two candidates with such metrics have different energies for all aims.
   const candidates = [1, 2].map((part): Candidate => {
     const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
     return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };

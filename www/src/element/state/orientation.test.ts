@@ -29,7 +29,7 @@ interface Asked {
 }
 
 let asked: Asked[];
-/** The directions to measure, each with what settles it. */
+/** Directions to measure, each with a function that settles it. */
 let measuring: { direction: readonly number[]; answer(candidate: Candidate): Promise<void> }[];
 let subject: Subject | null;
 let failures: unknown[];
@@ -151,7 +151,7 @@ test("a search is outdated when something changes that it depends on, and only t
   expect(isCurrent({ layer_max_mm: 0.2 })).toBe(false);
   expect(isCurrent({ printer: "mars-4-ultra" })).toBe(false);
   expect(isCurrent({}, new Float32Array(1))).toBe(false);
-  // Without supports, those of medium strength are estimated; where points are is of no account.
+  // Without supports, medium ones are estimated; the places of points do not matter.
   expect(isCurrent({ supports: {} })).toBe(true);
   expect(isCurrent({ supports: { strength: "medium", points: [{ at_mm: [0, 0, 1] }], fill: true, spare: true } })).toBe(true);
   expect(isCurrent({ supports: { strength: "heavy" } })).toBe(false);
@@ -174,7 +174,7 @@ test("a height belongs to the pose: the search is outdated by another rotation, 
   expect(directions.isCurrent).toBe(true);
 });
 
-/** Puts the model in another pose, as a person does. */
+/** Changes the pose of the model, as a user does. */
 function pose(rotation: Options["rotation"]): void {
   if (subject !== null) subject = { ...subject, options: { ...subject.options, rotation } };
 }
@@ -191,7 +191,7 @@ test("the pose now is that of a candidate, if there is one, and else it is measu
   expect(directions.now).toEqual({ rotation: [1, 0, 0, 0], candidate: over });
   expect(measuring).toEqual([]);
 
-  // On its side: the file's −y is up.
+  // Lying on its side: the file's −y is up.
   const turned = [Math.SQRT1_2, 0, 0, -Math.SQRT1_2] as [number, number, number, number];
   pose(turned);
   void directions.measure();
@@ -271,7 +271,7 @@ test("arrow keys go where they point, on either side, and around the rim", () =>
   expect(moved(front, "left", 30)[0]).toBeCloseTo(-0.5, 12);
   expect(moved(front, "up", 30)[1]).toBeCloseTo(0.5, 12);
   expect(moved(front, "down", 30)[1]).toBeCloseTo(-0.5, 12);
-  // In the picture from behind, right is left of the front.
+  // In the rear view, right is to the left of the front view.
   expect(moved([0, 0, -1], "right", 30)[0]).toBeCloseTo(-0.5, 12);
   expect(moved([0, 0, -1], "up", 30)[1]).toBeCloseTo(0.5, 12);
   expect(moved(front, "right", 120)[2]).toBeCloseTo(-0.5, 12);

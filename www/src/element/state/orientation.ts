@@ -1,4 +1,4 @@
-/** The orientation search: its aims, what is known so far, and whether that is current. */
+/** The orientation search: its aims, its results so far, and their validity. */
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
@@ -7,12 +7,12 @@ import type { Rotation } from "../../view/scene/pose.js";
 import { back, turn, unit, UPRIGHT } from "../../view/scene/turn.js";
 import { rotationText, type Settings } from "./settings.js";
 
-/** What candidates are rated by, and what excludes them. */
+/** Rating weights and exclusion limits for candidates. */
 export type Aims = Readonly<
   Required<Pick<SearchOptions, "alpha" | "cost" | "quality" | "most_overhang_mm2" | "most_islands" | "most_cups_mm2">>
 >;
 
-/** What a search depends on. */
+/** Input of a search. */
 export interface Subject {
   /** The model's name. */
   readonly name: string;
@@ -20,7 +20,7 @@ export interface Subject {
   readonly weights: Float32Array | null;
 }
 
-/** A pose of the model, measured as the candidates are. */
+/** A pose of the model, measured like the candidates. */
 export interface Posed {
   readonly rotation: Rotation;
   readonly candidate: Candidate;
@@ -34,7 +34,7 @@ export interface OrientationHost {
   failed(error: unknown): void;
 }
 
-/** The core's defaults, which the panel shows before the worker has started. A test compares them with the core. */
+/** Defaults of the core, for the panel before the worker has started. A test compares them with the core. */
 export const DEFAULT_AIMS: Aims = {
   alpha: 0.5,
   cost: "layers",
@@ -48,18 +48,18 @@ export class OrientationSearch {
   aims = DEFAULT_AIMS;
   /** The candidates measured so far; null before a search. */
   found: Found | null = null;
-  /** The best candidates that differ from each other, best first; empty until known. */
+  /** Best candidates that differ from one another, best first; empty until known. */
   best: readonly Candidate[] = [];
-  /** The pose on show; null until it is measured. It is comparable with the candidates: one search's settings apply to all. */
+  /** The current pose; null until measured. Comparable with the candidates, since the settings of the search also apply to it. */
   now: Posed | null = null;
   /** The progress of the search; null if none runs. */
   busy: Busy | null = null;
   readonly #host: OrientationHost;
   readonly #slicer: Pick<Slicer, "orient" | "measure">;
   #of: Subject | null = null;
-  /** Keys of the options that the results are valid for, one for each pose that was applied. */
+  /** Keys of the options for which the results are valid, one per applied pose. */
   #keys = new Set<string>();
-  /** All candidates, once they are measured. */
+  /** All candidates, once measured. */
   #measured: readonly Candidate[] | null = null;
   #abort: AbortController | null = null;
 
@@ -68,7 +68,7 @@ export class OrientationSearch {
     this.#slicer = slicer;
   }
 
-  /** The options of the metrics shown. */
+  /** Options of the metrics shown. */
   get options(): Options | null {
     return this.#of?.options ?? null;
   }
@@ -94,7 +94,7 @@ export class OrientationSearch {
     void this.#run(subject);
   }
 
-  /** Stops a search; what it has measured stays visible. */
+  /** Stops a search; its measurements stay visible. */
   cancel(): void {
     const abort = this.#abort;
     if (abort === null) return;
@@ -108,23 +108,23 @@ export class OrientationSearch {
   aim(change: Partial<Aims>): void {
     this.aims = { ...this.aims, ...change };
     this.#host.changed();
-    // A running search takes up the change at its end.
+    // A running search applies the change at its end.
     if (this.busy === null && this.#measured !== null && this.#of !== null && this.isCurrent) void this.#run(this.#of);
   }
 
-  /** The model was put in a candidate's pose: the results are valid for those options too. */
+  /** Notes that the model took a candidate's pose, for whose options the results are valid as well. */
   applied(options: Options): void {
     this.#keys.add(keyOf(options));
   }
 
-  /** Measures the pose on show, unless it is known: call this once the model has another, and has its plan. */
+  /** Measures the current pose unless known. Call it once the model has a new pose and a plan for it. */
   async measure(): Promise<void> {
     const subject = this.#of;
     const rotation = this.#host.subject()?.options.rotation ?? UPRIGHT;
     if (subject === null || this.#measured === null || !this.isCurrent || isPose(this.now?.rotation, rotation)) return;
     const candidate =
       [...this.best, ...this.#measured].find((it) => isPose(it.rotation, rotation)) ??
-      // Without it, the candidates have nothing to be compared with. A broken worker is reported elsewhere.
+      // Without a measurement, candidates have no comparison. A broken worker is reported elsewhere.
       (await this.#slicer.measure(subject.options, unit(turn(back(rotation), [0, 0, 1]))).catch(() => null));
     // The model may have been turned on in the meantime.
     if (candidate === null || this.#of !== subject || !isPose(this.#host.subject()?.options.rotation ?? UPRIGHT, rotation)) return;
@@ -188,24 +188,23 @@ export class OrientationSearch {
 }
 
 /**
- * The options that metrics of all directions depend on. The pose is one only if a height is requested, which is the height in
- * that pose; the backend, the number of rays, what is inside the model, and the print format are not. Of supports, which are estimated
- * anew for each direction, the sizes count: as the core has it, those of medium ones where there are none, and a profile's before a
- * strength's.
+ * Key of the options that affect the metrics of all directions. The pose matters only with a requested height, which applies in that pose.
+ * The backend, number of rays, hollowing and print format do not matter. Supports are estimated for each direction, so only their sizes
+ * matter: as in the core, the profile takes precedence over the strength, and medium is the default.
  */
 function keyOf({ rotation, height_mm, rays: _rays, hollow: _hollow, supports, backend: _backend, gpu_method: _method, format: _format, ...options }: Options): string {
   const sizes = supports?.profile ?? supports?.strength ?? "medium";
   return JSON.stringify(height_mm === undefined ? { ...options, sizes } : { ...options, sizes, height_mm, rotation });
 }
 
-/** Returns true if two rotations are the same pose, to the digits that settings keep. */
+/** Returns true if two rotations are equal to the digits kept in settings. */
 export function isPose(one: Rotation | undefined, other: Rotation): boolean {
   return one !== undefined && rotationText(one) === rotationText(other);
 }
 
-/** The change of settings that puts the model in a candidate's pose. */
+/** Change of settings that puts the model in a candidate's pose. */
 export function withPose({ height }: Settings, { rotation, size_mm }: Candidate): Partial<Settings> {
-  // A height belongs to the pose: another pose must not change the scale.
+  // The height depends on the pose; adapt it to keep the scale.
   const scaled = height.trim() === "" ? {} : { height: String(Number(size_mm[2].toFixed(6))) };
   return { rotation: rotationText(rotation), ...scaled };
 }

@@ -1,6 +1,6 @@
 /** The names of the element's panels. */
 
-/** The names that `panels` accepts, in the order of the page. */
+/** Names accepted by `panels`, in the order of the page. */
 export const PANELS = ["open", "model", "plate", "settings", "plan", "view", "profile", "orientation", "quality", "layers", "findings"] as const;
 
 export type Panel = (typeof PANELS)[number];

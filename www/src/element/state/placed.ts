@@ -1,27 +1,27 @@
-/** Points that somebody has placed on the model: the contacts of supports, and drain holes. As a setting they are a text. */
+/** Points placed on the model by hand: support contacts and drain holes. Settings store them as text. */
 import type { Triple } from "../../view/scene/pose.js";
 
 export interface Placed {
-  /** x and y from the model's middle, z from its lowest point, mm. */
+  /** x and y from the model's centre, z from its lowest point, mm. */
   readonly at_mm: Triple;
-  /** The way a drain hole goes in, a unit vector; null for a support. */
+  /** Direction of a drain hole into the model, a unit vector; null for a support. */
   readonly inward: Triple | null;
-  /** Of the contact or of the hole; null for that of the strength. */
+  /** Diameter of the contact or hole; null for the default of the strength. */
   readonly diameter_mm: number | null;
-  /** True if it stays where it is when the others are placed anew. */
+  /** True if the point stays when the others are placed automatically again. */
   readonly isLocked: boolean;
 }
 
-/** The settings that hold such points. */
+/** Settings that store such points. */
 export type PlacedKind = "points" | "drains";
 
-/** No contact and no hole is smaller, or larger, than that. */
+/** Smallest and largest diameter of a contact or hole. */
 export const LEAST_MM = 0.1;
 export const MOST_MM = 50;
 
 const rounded = (mm: number): number => Math.round(mm * 1000) / 1000 + 0;
 
-/** The points of a setting; null if it is none. */
+/** Parses the points of a setting; null if malformed. */
 export function placedFrom(text: string, kind: PlacedKind): readonly Placed[] | null {
   if (text === "") return [];
   const list = text.split(";").map((point) => pointFrom(point.split(","), kind));
@@ -41,7 +41,7 @@ function pointFrom(parts: readonly string[], kind: PlacedKind): Placed | null {
   return { at_mm: [x, y, z], inward: hasWay ? [dx, dy, dz] : null, diameter_mm: Number.isNaN(size) ? null : size, isLocked: lock === 1 };
 }
 
-/** The setting that holds these points, to the micrometre. */
+/** Formats points for a setting, to the micrometre. */
 export function placedText(list: readonly Placed[]): string {
   const parts = ({ at_mm, inward, diameter_mm, isLocked }: Placed): readonly (number | string)[] => [
     ...[...at_mm, ...(inward ?? [])].map(rounded),

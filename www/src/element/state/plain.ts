@@ -1,6 +1,6 @@
-/** Plain data as a page gives it: objects, lists and arrays of numbers. */
+/** Plain data from a page: objects, lists and arrays of numbers. */
 
-/** Returns true if both have the same content. */
+/** Returns true if both have equal contents. */
 export function isEqual(a: unknown, b: unknown): boolean {
   if (Object.is(a, b)) return true;
   if (a instanceof Float32Array && b instanceof Float32Array) return a.length === b.length && a.every((it, i) => Object.is(it, b[i]));
@@ -9,7 +9,7 @@ export function isEqual(a: unknown, b: unknown): boolean {
   return own.length === Object.keys(b).length && own.every(([key, it]) => key in other && isEqual(it, other[key]));
 }
 
-/** A copy that a page cannot change any more, and that crosses to a worker where a framework watches the page's own by a proxy. */
+/** A deep copy that the page cannot change. Unlike proxies, with which frameworks watch data, it can be sent to a worker. */
 export function copyOf<T>(value: T): T {
   if (value instanceof Float32Array) return value.slice() as typeof value;
   if (Array.isArray(value)) return value.map(copyOf) as typeof value;

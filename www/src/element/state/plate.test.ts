@@ -4,16 +4,16 @@ import { createSlicer } from "../../api/index.js";
 import type { ArrangeError, JobOptions, Placement } from "../../api/wire.js";
 import { MOST_COPIES, Plate, type Added, type Entry, type Own, type Pose } from "./plate.js";
 
-/** What the fake worker was asked, and what it answers. */
+/** Calls to the fake worker, and its answers. */
 let log: string[];
 let jobs: JobOptions[];
 let answers: ArrangeError[];
-/** What the plate told its host. */
+/** Reports of the plate to its host. */
 let told: string[];
-/** The kinds of its undo steps. */
+/** Kinds of its undo steps. */
 let steps: string[];
 let plate: Plate;
-/** Options that settings give for a model in a pose. */
+/** Options from settings for a model in a pose. */
 let owned: (pose: Pose) => Own | null;
 
 const POSE: Pose = { rotation: "", height: "", points: "", fill: "off", drains: "", drain: "auto" };
@@ -194,7 +194,7 @@ test("copies have the supports of their model, until it has another pose", async
   expect(supports()).toEqual([0, 1]);
   plate.setCopies(1, 2);
   stand();
-  // Until there is a plan for these.
+  // Until these models are planned.
   expect(supports()).toEqual([0, 1]);
   plate.remove(0);
   plate.placements = [{ model: 0, plate: 0, x_mm: 0, y_mm: 0, turn_deg: 0 }];

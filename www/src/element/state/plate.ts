@@ -1,4 +1,4 @@
-/** The models of a session, of which one is selected, and where their copies stand. The session shows the plan of one plate. */
+/** The models of a session, one of which is selected, and the placements of their copies. The session shows the plan of one plate. */
 import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import { FACTS } from "../../api/facts.js";
@@ -10,23 +10,23 @@ import { isEqual } from "./plain.js";
 import { Sync } from "./sync.js";
 import { read } from "./typed.js";
 
-/** Settings of the selected model alone: its pose, and what is placed by hand on it. */
+/** Settings of the selected model alone: its pose, and its points placed by hand. */
 export type Pose = Pick<Settings, "rotation" | "height" | "points" | "fill" | "drains" | "drain">;
 
-/** The same as options, with voids and supports, which points and holes are part of. */
+/** The corresponding options, with the voids and supports to which points and holes belong. */
 export type Own = Pick<ModelOptions, "rotation" | "height_mm" | "hollow" | "supports">;
 
-/** A pose as the settings have it and, where these are valid, as options. */
+/** A pose as settings and, if these are valid, as options. */
 export interface Posed {
   readonly pose: Pose;
   readonly own?: Own;
 }
 
-/** A model to add, in a pose and with copies of its own. */
+/** A model to add, with its own pose and copies. */
 export interface Added {
   readonly source: Source;
   readonly own: Pick<Own, "rotation" | "height_mm"> & { readonly copies?: number };
-  /** That of the source if absent. */
+  /** By default, the name of the source. */
   readonly name?: string;
 }
 
@@ -38,9 +38,9 @@ export interface Entry extends Required<Posed> {
   readonly weights: Float32Array | null;
 }
 
-/** The models, copies and places that undo goes back to. */
+/** Models, copies and placements as an undo step restores them. */
 export interface PlateState {
-  /** Tells the models from those that were opened before. */
+  /** Number of the set of models, which changes when a model is opened. */
   readonly job: number;
   readonly entries: readonly Entry[];
   readonly selected: number;
@@ -50,19 +50,19 @@ export interface PlateState {
 
 /** A copy on the plate shown. */
 export interface Copy {
-  /** Its place among all placements. */
+  /** Index among all placements. */
   readonly place: number;
   readonly entry: Entry;
   readonly x_mm: number;
   readonly y_mm: number;
   readonly turn_deg: number;
-  /** Height of the model in the plan; null while that is unknown. */
+  /** Height of the model in the plan; null until known. */
   readonly height_mm: number | null;
-  /** Vertex positions of its supports, for a copy in the middle that is not turned; null without any for its pose. */
+  /** Vertex positions of its supports, for an unrotated copy in the middle of the plate; null if there are none for its pose. */
   readonly supports: Float32Array | null;
 }
 
-/** A number of copies that is none, as it was typed for a model. */
+/** An invalid number of copies, as typed for a model. */
 export interface MisreadCopies {
   readonly key: number;
   readonly text: string;
@@ -71,48 +71,48 @@ export interface MisreadCopies {
 
 export interface PlateHost {
   changed(): void;
-  /** Models, copies or places are about to change; `kind` is that of an undo step, and null if the change is none. */
+  /** Called before models, copies or placements change; `kind` is that of the undo step, or null for none. */
   changing(kind: string | null): void;
-  /** The models, their copies or their places have changed: they are to be planned. */
+  /** Called when models, copies or placements have changed and need a new plan. */
   replate(): void;
-  /** Another plate is to be shown. */
+  /** Called when another plate is to be shown. */
   show(plan: Plan): void;
-  /** Another model was selected. */
+  /** Called when another model was selected. */
   selected(entry: Entry): void;
-  /** The options of a model in a pose, by the settings now; null if one is invalid. */
+  /** Options of a model in a pose, with the current settings; null if one is invalid. */
   own(pose: Pose): Own | null;
 }
 
-/** The most copies of a model. */
+/** Maximum number of copies per model. */
 export const MOST_COPIES = 1000;
 
 export class Plate {
   entries: readonly Entry[] = [];
-  /** The place of the selected model. */
+  /** Index of the selected model. */
   selected = 0;
-  /** The plate shown, from 0. */
+  /** Index of the plate shown. */
   number = 0;
   arranging: Required<Arranging> = FACTS.arranging;
   /** Where copies stand by hand; empty: as they are arranged. */
   placed: readonly Placement[] = [];
-  /** Where copies stand in the plan or by hand. */
+  /** Current placements, from the plan or by hand. */
   placements: readonly Placement[] = [];
   /** The plan of several copies; null if there is only one. */
   planned: Plan | null = null;
-  /** The models of that plan. */
+  /** Models of that plan. */
   #planned: readonly Entry[] = [];
   problems: readonly ArrangeError[] = [];
-  /** The last number of copies that was typed, if it is none. */
+  /** The last number of copies typed, if invalid. */
   misread: MisreadCopies | null = null;
   readonly #host: PlateHost;
   readonly #slicer: SlicerCalls;
   readonly #sync: Sync;
   #keys = 0;
   #job = 0;
-  /** True if a copy is being moved and has not been released. */
+  /** True while a copy is being dragged. */
   #isMoving = false;
   #drags = 0;
-  /** The last answers of `copies` and `crowded`: a new object would count as a change. */
+  /** Cached values of `copies` and `crowded`, since a new object would count as a change. */
   #copies: { entries: unknown; placements: unknown; number: number; planned: unknown; copies: readonly Copy[] } = {
     ...{ entries: null, placements: null, number: 0, planned: null },
     copies: [],
@@ -157,13 +157,13 @@ export class Plate {
     });
   }
 
-  /** The supports of a model in the last plan; null if it has another pose by now. */
+  /** Supports of a model in the last plan; null if its pose has changed since. */
   #supportsOf({ key, own }: Entry): Float32Array | null {
     const place = this.#planned.findIndex((it) => it.key === key && JSON.stringify(it.own) === JSON.stringify(own));
     return this.planned?.supports?.[place] ?? null;
   }
 
-  /** The places of the copies that problems name. */
+  /** Indices of copies with faulty placements. */
   get crowded(): ReadonlySet<number> {
     const { placements, problems } = this;
     if (this.#crowded.placements === placements && this.#crowded.problems === problems) return this.#crowded.places;
@@ -172,7 +172,7 @@ export class Plate {
     return places;
   }
 
-  /** Reads a model in place of all others; with choices, the selected one again, whose copies stay. */
+  /** Reads a model that replaces all others. With reading options, reads the selected one again and keeps its copies. */
   async open(source: Source, call: LoadCall): Promise<Entry & { positions: Float32Array | null }> {
     const isAgain = call.reading !== undefined;
     const isAlone = !isAgain || this.entries.length < 2;
@@ -191,19 +191,19 @@ export class Plate {
     return { ...entry, positions: positions ?? null };
   }
 
-  /** The slicer's number of the selected model. */
+  /** The slicer's id of the selected model. */
   get selectedId(): number | undefined {
     return this.#sync.idOf(this.entries[this.selected]?.key);
   }
 
-  /** Sets the weights of the selected model. If the core refuses them, the plan fails and reports it. */
+  /** Sets the weights of the selected model. If the core refuses them, the plan reports the error. */
   paint(weights: Float32Array | null): void {
     this.keep({ weights });
     const { key } = this.entries[this.selected] ?? {};
     if (key !== undefined) this.#sync.paint(key, weights, {}).catch(() => undefined);
   }
 
-  /** Reads models and adds them after the others: all, or on a failure none. Returns the new ones. */
+  /** Reads models and appends them, all or none. Returns the new ones. */
   async add(added: readonly Added[], call: LoadCall): Promise<readonly Entry[]> {
     const entries: Entry[] = [];
     try {
@@ -239,7 +239,7 @@ export class Plate {
     this.#host.replate();
   }
 
-  /** Sets the number of copies that was typed. One that is none is shown with its fault. */
+  /** Sets the number of copies from text. Invalid text is kept and shown with its fault. */
   typeCopies(place: number, text: string, decimal?: string): void {
     const key = this.entries[place]?.key;
     const { value, fault: kind } = read(text, "", decimal);
@@ -271,18 +271,18 @@ export class Plate {
     this.#tellSelected();
   }
 
-  /** Keeps what settings, brush and page say about the selected model. */
+  /** Stores changes of the selected model's pose or weights. */
   keep(kept: Partial<Omit<Entry, "key" | "model">>): void {
     this.#change(this.selected, kept);
   }
 
-  /** What undo goes back to. */
+  /** State for an undo step. */
   get state(): PlateState {
     const { entries, selected, arranging, placed } = this;
     return { job: this.#job, entries, selected, arranging, placed };
   }
 
-  /** Goes back to a state, with this pose of the model selected then. False if that is how things are. */
+  /** Restores a state, with this pose of the model that was selected then. Returns false if nothing changes. */
   restore(state: PlateState, posed: Posed): boolean {
     const { job, entries, selected, arranging, placed } = state;
     const chosen = entries[selected];
@@ -292,7 +292,7 @@ export class Plate {
     if (isSame && isSelected && arranging === this.arranging && placed === this.placed) return false;
     const { number } = this;
     this.misread = null;
-    // What was painted has steps of its own.
+    // Painted weights have their own undo steps.
     const painted = new Map(this.entries.map(({ key, weights }) => [key, weights]));
     this.#take(entries.map((entry) => ({ ...entry, weights: painted.has(entry.key) ? (painted.get(entry.key) ?? null) : entry.weights })));
     this.selected = selected;
@@ -306,7 +306,7 @@ export class Plate {
     return true;
   }
 
-  /** Arranges all copies again, also those that were moved. */
+  /** Arranges all copies automatically, including those moved by hand. */
   arrange(arranging: Arranging = {}): void {
     this.#host.changing(`arrange ${Object.keys(arranging).join()}`);
     this.arranging = { ...this.arranging, ...arranging };
@@ -314,11 +314,11 @@ export class Plate {
     this.#host.replate();
   }
 
-  /** Moves a copy on its plate; problems follow, and the plan once it is released. */
+  /** Moves a copy on its plate. Problems are checked during the move; the plan follows on release. */
   move(place: number, to: Partial<Pick<Placement, "x_mm" | "y_mm" | "turn_deg">>, isFinal: boolean): void {
     const moved = this.placements[place];
     if (moved === undefined) return;
-    // A drag is one step, however many places it passes; so are presses of the arrow keys without a pause.
+    // A drag is one undo step, and so are presses of an arrow key in quick succession.
     if (!this.#isMoving) this.#host.changing(isFinal ? `move ${place}` : `drag ${++this.#drags}`);
     this.#isMoving = !isFinal;
     this.placements = this.placed = this.placements.map((it, other) => (other === place ? { ...moved, ...to } : it));
@@ -336,7 +336,7 @@ export class Plate {
     this.#host.show({ ...planned, ...plan });
   }
 
-  /** Height of a model in the last plan, by its place; null without a plan of several. */
+  /** Height of a model in the last plan, by its index; null without a plan of several copies. */
   heightOf(place: number): number | null {
     const models = this.planned?.plates.flatMap(({ report }) => report.models);
     return models?.find(({ model }) => model === place)?.size_mm[2] ?? null;
@@ -351,7 +351,7 @@ export class Plate {
     this.#settle();
     const { entries, placed, arranging } = this;
     const synced = this.#sync.bring(entries, watch);
-    // A call keeps its place among others only if it is made at once.
+    // The call must be made immediately to keep its place in the queue.
     if (synced !== null) await synced;
     if (!this.isSeveral) {
       this.planned = null;
@@ -382,14 +382,14 @@ export class Plate {
     return this.#slicer.price(prices, ordered);
   }
 
-  /** The curve of the plate shown. */
+  /** Trade-off curve of the plate shown. */
   async tradeoff(options: Options = {}, points?: number, watch: Watch = {}): Promise<Tradeoff & { schema: typeof SCHEMA }> {
     if (this.planned === null) return this.#slicer.tradeoff(options, points, watch);
     const { number: plate, placements, arranging } = this;
     return this.#slicer.tradeoff(sharedOf(options), points, { ...watch, plate, placements, arranging });
   }
 
-  /** Asks what is wrong with the places, one call at a time; the newest counts. */
+  /** Checks the placements for problems, one call at a time; only the newest answer counts. */
   async #check(): Promise<void> {
     this.#asked = this.placements;
     if (this.#isAsking) return;
@@ -404,7 +404,7 @@ export class Plate {
         this.#host.changed();
       }
     } catch {
-      // The plan that follows reports what failed.
+      // The next plan reports any failure.
     } finally {
       this.#isAsking = false;
     }
@@ -414,7 +414,7 @@ export class Plate {
     return { key: ++this.#keys, model, copies: countOf(copies) || 1, pose: poseOf(own), own, weights: null };
   }
 
-  /** Replaces the models; those that are gone leave the slicer's plate. */
+  /** Replaces the models; removed ones are also removed from the slicer. */
   #take(entries: readonly Entry[]): void {
     const kept = new Set(entries.map(({ key }) => key));
     for (const entry of this.entries) if (!kept.has(entry.key)) this.#sync.leave(entry);
@@ -425,13 +425,13 @@ export class Plate {
     this.entries = this.entries.map((entry, other) => (other === place ? { ...entry, ...changed } : entry));
   }
 
-  /** Gives each model the options that the settings now mean for it. */
+  /** Updates the options of each model for the current settings. */
   #settle(): void {
     const entries = this.entries.map((entry) => {
       const own = this.#host.own(entry.pose);
       return own === null || isEqual(own, entry.own) ? entry : { ...entry, own };
     });
-    // Copies are kept for as long as the models are the same.
+    // The array is replaced only if a model has changed.
     if (entries.some((entry, place) => entry !== this.entries[place])) this.entries = entries;
   }
 
@@ -440,7 +440,7 @@ export class Plate {
     if (entry !== undefined) this.#host.selected(entry);
   }
 
-  /** Forgets where copies stand. */
+  /** Forgets the placements. */
   #forget(): void {
     this.placed = this.placements = [];
     this.problems = [];
@@ -448,17 +448,17 @@ export class Plate {
   }
 }
 
-/** A pose of options, as settings have it, with nothing placed by hand. */
+/** The pose of options as settings, without points by hand. */
 export function poseOf({ rotation, height_mm }: Pick<Own, "rotation" | "height_mm">): Pose {
   const unit = quaternion(String(rotation));
   const { points, fill, drains, drain } = DEFAULT_SETTINGS;
   return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm), points, fill, drains, drain };
 }
 
-/** The options that several models share: each has a pose, a void and supports of its own. */
+/** Options shared by several models: all except pose, void and supports. */
 function sharedOf({ rotation: _rotation, height_mm: _height, hollow: _hollow, supports: _supports, ...shared }: Options): Options {
   return shared;
 }
 
-/** A number of copies within bounds; NaN if it is none. */
+/** Number of copies clamped to its bounds; NaN if invalid. */
 const countOf = (copies: number): number => Math.min(Math.max(1, Math.round(copies)), MOST_COPIES);

@@ -1,14 +1,14 @@
-/** What the user wants: the settings, with the steps to undo, and the printers and resins to choose from. */
+/** User's choices: settings with undo steps, and the printers and resins on offer. */
 import type { Backend, GpuMethod, KnownPrinter, Options, Resin } from "../../api/wire.js";
 import { History } from "./history.js";
 import { isEqual } from "./plain.js";
 import type { PlateState } from "./plate.js";
 import { changed, check, type Faults, type Offered, type Settings } from "./settings.js";
 
-/** Pause after the last keystroke before the settings are planned. */
+/** Delay after the last keystroke before planning. */
 const DEBOUNCE_MS = 250;
 
-/** What undo goes back to: the settings, and the models with their copies and places. */
+/** An undo step: settings, and models with copies and placements. */
 interface Step {
   readonly settings: Settings;
   readonly plate: PlateState;
@@ -16,9 +16,9 @@ interface Step {
 
 export abstract class Preferences implements Offered {
   settings: Settings;
-  /** The backend of every plan; null leaves the choice to the core. */
+  /** Backend for every plan; null: chosen by the core. */
   backend: Backend | null;
-  /** How a GPU samples; null leaves the choice to the core. */
+  /** GPU method; null: chosen by the core. */
   gpuMethod: GpuMethod | null = null;
   printers: readonly KnownPrinter[] = [];
   resins: readonly Resin[] = [];
@@ -31,13 +31,13 @@ export abstract class Preferences implements Offered {
     this.backend = backend;
   }
 
-  /** Called when the settings have changed: they are to be planned after this time, unless they change again. */
+  /** Called when the settings have changed: plan after this delay, unless they change again. */
   protected abstract preferred(delay_ms: number): void;
 
-  /** The models as they are. */
+  /** Current state of the models. */
   protected abstract standing(): PlateState;
 
-  /** Brings the models back to a state, in the pose of the settings, and plans them. False if that is how they are. */
+  /** Restores the models, in the pose of the settings, and plans them. Returns false if nothing changes. */
   protected abstract stand(state: PlateState): boolean;
 
   get faults(): Faults {
@@ -45,7 +45,7 @@ export abstract class Preferences implements Offered {
     return checked.ok ? {} : checked.faults;
   }
 
-  /** The options that the settings give; null if a setting is invalid. */
+  /** Options of the settings; null if a setting is invalid. */
   get options(): Options | null {
     const checked = check(this.settings, this);
     if (!checked.ok) return null;
@@ -64,7 +64,7 @@ export abstract class Preferences implements Offered {
     return this.#history.canRedo;
   }
 
-  /** Applies settings from the page, including fixed ones, without an undo step. Those that it has change nothing. */
+  /** Applies settings from the page, including fixed ones, without an undo step. Unchanged values have no effect. */
   preset(patch: Partial<Settings>): void {
     this.#take(changed(this.settings, patch));
   }
@@ -75,15 +75,15 @@ export abstract class Preferences implements Offered {
   }
 
   /**
-   * Changes settings, except fixed ones, as an undo step, and plans again after a pause if they are valid. Quick changes of
-   * one `kind` are a single step.
+   * Changes settings, except fixed ones, as an undo step, and plans after a delay if they are valid. Quick changes of one `kind` form a
+   * single step.
    */
   change(patch: Partial<Settings>, kind = Object.keys(patch).join()): void {
     this.note(kind);
     this.#set(this.#allowed(changed(this.settings, patch)));
   }
 
-  /** Makes an undo step of the change that follows. */
+  /** Records an undo step for the next change. */
   protected note(kind: string): void {
     this.#history.note(this.#now(), kind, performance.now());
   }
@@ -96,7 +96,7 @@ export abstract class Preferences implements Offered {
     if (this.canRedo) this.#go(this.#history.redo(this.#now()));
   }
 
-  /** Forgets the steps that only changed models which are no longer there. */
+  /** Forgets steps that only changed models which have been removed. */
   protected forgetModels(): void {
     this.#history.forget((before, after) => before.settings === after.settings, this.#now());
   }

@@ -1,4 +1,4 @@
-/** A known printer in which tests override the fields that they check. */
+/** A known printer whose fields tests can override. */
 import type { KnownPrinter } from "../../api/wire.js";
 
 export const knownPrinter = (patch: Partial<KnownPrinter> & Pick<KnownPrinter, "name">): KnownPrinter => ({

@@ -115,7 +115,7 @@ test("a file describes a printer, which has the file's name unless it says its o
   const read = (text: string, name = "My printer.json"): Promise<Printer> => readPrinter(new File([text], name));
   expect(await read(JSON.stringify(MINE))).toEqual({ ...MINE, name: "My printer", model: "My printer" });
   expect(await read(JSON.stringify({ ...MINE, model: "Big One" }))).toMatchObject({ name: "My printer", model: "Big One" });
-  // The core refuses it in its own words.
+  // The core reports the missing fields.
   expect(await read("{}")).toEqual({ name: "My printer", model: "My printer" });
   for (const text of ["", "{", "[]", "null", '"saturn"', "7"]) {
     await expect(read(text), text).rejects.toMatchObject({ code: "printer-not-json", detail: { system: expect.stringMatching(/./) } });

@@ -3,15 +3,15 @@ import { said, SlicerError } from "../../api/error.js";
 import { FORMATS } from "../../api/facts.js";
 import type { Format, KnownPrinter, Printer } from "../../api/wire.js";
 
-/** The name of a known printer, the description of one's own, or empty text for none. */
+/** Name of a known printer, description of a custom one, or empty for none. */
 export type ChosenPrinter = string | Printer;
 
 /** The longest description that an address carries, as JSON: mail programs and servers cut or refuse very long addresses. */
 export const ADDRESS_CHARS = 1500;
 
 /**
- * The printer that was chosen; null if there is none of this name, or if its description has fields of another type than those
- * that are shown. In both cases the core refuses it and says why.
+ * The chosen printer; null if the name is unknown, or if a field of its description that is shown has the wrong type. In both cases the
+ * core refuses it with a reason.
  */
 export function printerOf(chosen: ChosenPrinter | undefined, known: readonly KnownPrinter[]): Printer | null {
   if (typeof chosen === "object") return isPrinter(chosen) ? chosen : null;
@@ -37,17 +37,17 @@ function areLengths(value: unknown, count: number): boolean {
   return Array.isArray(value) && value.length === count && value.every((it) => Number.isFinite(it) && it > 0);
 }
 
-/** Make and model; without one, the core's own words. */
+/** Make and model; defaults to the core's own words. */
 export const modelOf = ({ model = "own printer" }: Printer): string => model;
 
-/** The format that settings give before there is a plan. */
+/** Format implied by settings before there is a plan. */
 export function formatFor({ printer, format }: { printer: ChosenPrinter; format: Format | "" }, known: readonly KnownPrinter[]): Format {
   return format || (printerOf(printer, known)?.format ?? "png");
 }
 
 const COLLATOR = new Intl.Collator("en", { numeric: true });
 
-/** Printers by maker, which is the first word of a model, with the rest of the model: both in alphabetical order. */
+/** Printers by maker, the first word of a model, with the rest of the model; both sorted alphabetically. */
 export function byMaker(printers: readonly KnownPrinter[]): [maker: string, models: (readonly [name: string, model: string])[]][] {
   const makers = new Map<string, (readonly [string, string])[]>();
   for (const { name, model } of printers) {
@@ -60,11 +60,11 @@ export function byMaker(printers: readonly KnownPrinter[]): [maker: string, mode
   return [...makers].sort(([a], [b]) => COLLATOR.compare(a, b));
 }
 
-/** The longest file that is read as a printer's description: a hundred times as long as a full one. */
+/** Maximum size of a description file: a hundred times a full description. */
 const MOST_BYTES = 64_000;
 
 /**
- * The printer that a file describes in JSON; it has the file's name unless it says its own. The core checks its values.
+ * Reads a printer's description from JSON; its name defaults to that of the file. The core checks the values.
  *
  * @throws SlicerError
  */
@@ -89,14 +89,14 @@ function parsed(text: string): Printer {
   }
 }
 
-/** The text of a printer in an address; empty if its description is too long for one. */
+/** Text of a printer in a URL; empty if its description is too long. */
 export function printerText(chosen: ChosenPrinter): string {
   if (typeof chosen === "string") return chosen;
   const text = JSON.stringify(chosen);
   return text.length > ADDRESS_CHARS ? "" : text;
 }
 
-/** The printer of an address; no name begins with a brace. */
+/** Parses the printer of a URL; no name begins with a brace. */
 export function printerFrom(text: string): ChosenPrinter {
   if (!text.startsWith("{")) return text;
   try {

@@ -21,7 +21,7 @@ function explain(
 }
 
 const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]): SlicerError =>
-  // The element never shows the core's own sentence.
+  // The element never shows the core's sentence.
   new SlicerError(code as "no-plan", "never shown", detail as null);
 
 type Ways = Pick<ErrorDetails["infeasible"], "least_tolerance" | "largest_layer_min_mm">;

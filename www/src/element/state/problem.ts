@@ -1,4 +1,4 @@
-/** Failures in words: what happened, which field caused it, and what may fix it. Fetched with the first failure. */
+/** Failures explained: a sentence, the field that caused it, and offers that may fix it. Fetched with the first failure. */
 import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
 import type { ProblemTexts } from "../../texts/en/problems.js";
 import type { Language } from "../../texts/index.js";
@@ -15,23 +15,23 @@ export interface Problem {
   title: string;
   text: string;
   offers: Offer[];
-  /** The setting that caused it; null if none did. */
+  /** Setting that caused the failure; null if none did. */
   field: Field | Choice | null;
 }
 
-/** A setting that is chosen from a list. */
+/** Settings chosen from a list. */
 export type Choice = "metric" | "rays" | "printer" | "format" | "resin" | "unit" | "supports" | "infill" | "drain";
 
-/** What failed, and the state at that time. */
+/** A failure with the state at that time. */
 export interface Failure {
   error: SlicerError;
-  /** The task that failed; null if it was none. */
+  /** The failed task; null if there was none. */
   task: Busy["task"] | null;
   /** The file's name. */
   name: string;
   /** The settings at that time. */
   settings: Settings;
-  /** Height of the model as it was to be printed, in mm; null if none was open. */
+  /** Intended height of the model in mm; null if none was open. */
   height_mm: number | null;
 }
 
@@ -172,7 +172,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   cancelled: "other",
 };
 
-/** The setting that a kind of failure is about. */
+/** Setting to which a kind of failure relates. */
 const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
   tooLarge: "printer",
   tooHigh: "printer",
@@ -189,7 +189,7 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
 };
 
 /**
- * A failure in words.
+ * Explains a failure.
  *
  * @param fixed settings that only the page may change, so that no offer changes them
  */
@@ -204,7 +204,7 @@ export function explain(failure: Failure, language: Language, texts: ProblemText
 
 function describe(failure: Failure, language: Language, texts: ProblemTexts, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name, settings } = failure;
-  // The form cannot give options that are unreadable, but for the description of a printer.
+  // The form always gives valid options, except for a printer's description.
   const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
   const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
   const text = sentenceOf(error, settings, texts);
@@ -213,7 +213,7 @@ function describe(failure: Failure, language: Language, texts: ProblemTexts, fix
   return { ...problem, text, offers: offersFor(kind, error, failure, language) };
 }
 
-/** The catalogue's sentence for a failure. */
+/** Sentence of the catalogue for a failure. */
 function sentenceOf<Code extends ErrorCode>(
   { code, detail }: { code: Code; detail: ErrorDetails[Code] },
   { metric }: Settings,
@@ -235,10 +235,10 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
     case "noSuchPrinter":
       return [...similarPrinters(error), withoutPrinter(language)];
     case "badPrinter":
-      // A file that was refused has not replaced the printer before.
+      // A refused file has not replaced the previous printer.
       return failure.task === null ? [] : [withoutPrinter(language)];
     case "uniformOnly":
-      // Test towers in uniform layers, or as images, tell nothing about a printer.
+      // Test towers need several thicknesses, so uniform layers or images would not help.
       if (failure.task === "towers") return [];
       return [uniformLayers(error, failure.settings, language), { label: language.texts.offers.images, change: { format: "png" } }];
     case "printerUniformOnly":
@@ -263,7 +263,7 @@ function waysOut(
   const { scale, error: written } = METRICS[settings.metric];
   const offers: Offer[] = [];
 
-  // A tolerance that a model has of its own is the page's.
+  // A model's own tolerance is set by the page.
   const least = fixed.has("tolerances") || detail.model_number !== null ? null : detail.least_tolerance;
   if (least !== null) {
     const short = round.up(least * scale);
@@ -293,7 +293,7 @@ function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
   return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
 }
 
-/** The scale at which a model that is too large fits; null for any other error. */
+/** Scale at which a model that is too large fits; null for any other error. */
 function scaleThatFits(error: SlicerError): number | null {
   return error.code === "model-too-large" || error.code === "model-too-high" ? error.detail.fitting_scale : null;
 }
@@ -307,10 +307,10 @@ function smaller(scale: number | null, { height_mm }: Failure, { texts, format }
 
 const withoutPrinter = ({ texts }: Language): Offer => ({ label: texts.offers.noPrinter, change: { printer: "" } });
 
-/** The names that an offer may stand for; the sentence has all of them. */
+/** Maximum number of names offered; the sentence has all of them. */
 const MOST_SIMILAR = 3;
 
-/** Offers the names that resemble an unknown one most. */
+/** Offers the names most similar to an unknown one. */
 function similarPrinters(error: SlicerError): Offer[] {
   const similar = error.code === "unknown-printer" ? error.detail.similar : [];
   return similar.slice(0, MOST_SIMILAR).map((printer) => ({ label: printer, change: { printer } }));

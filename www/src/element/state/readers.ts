@@ -1,9 +1,9 @@
-/** Readers of attribute and property values, which say what was expected of an invalid one. */
+/** Readers of attribute and property values, which describe the expected value if one is invalid. */
 import { isPrinter, type ChosenPrinter } from "./printer.js";
 
-/** What was expected instead. */
+/** Description of the expected value. */
 export interface Wrong {
-  /** Ends a sentence that begins with the attribute. */
+  /** Completes a sentence that begins with the attribute. */
   words: string;
   /** The valid names, if there is a list. */
   known?: readonly string[];
@@ -17,7 +17,7 @@ export interface Read<T> {
 
 export type Reader<T> = (said: unknown) => Read<T>;
 
-/** A list longer than this is counted, not told: the error has it. */
+/** A longer list is counted in the sentence, not listed; the error's detail has it. */
 const MOST_TOLD = 20;
 
 export const noneOf = (known: readonly string[]): Wrong => {
@@ -27,7 +27,7 @@ export const noneOf = (known: readonly string[]): Wrong => {
 
 export const text: Reader<string> = (said) => (typeof said === "string" ? { value: said } : { wrong: { words: "is no text" } });
 
-/** A name, or as a property a description. Whether its values are possible is checked by the core. */
+/** Reads a name, or a description set as a property. The core checks the values of a description. */
 export const printer: Reader<ChosenPrinter> = (said) => {
   if (typeof said === "string" || isPrinter(said)) return { value: said };
   return { wrong: { words: "is neither a name nor a description with pixels, pitch_um and volume_mm" } };

@@ -1,4 +1,4 @@
-/** A report in which tests override the fields that they check. */
+/** A report whose fields tests can override. */
 import type { PlannerReport, Report, BestUniform } from "../../api/wire.js";
 
 export const uniform = (layers: number, max_error: number, print_time_s: number): PlannerReport => ({

@@ -1,20 +1,20 @@
-/** The result of settings: a plan with the options that it was made for, and what is drawn from it. */
+/** A plan with its options, and the part of it that is drawn. */
 import type { Plan } from "../../api/index.js";
 import type { Metric, ModelReport, Options, Preview, Report } from "../../api/wire.js";
 
-/** A plan with the options it was made for. */
+/** A plan with its options. */
 export interface Result extends Plan {
   options: Options;
-  /** The selected model in the plan; undefined if it stands on no plate. */
+  /** The selected model in the plan; undefined if it is on no plate. */
   own: Partial<ModelReport> | undefined;
-  /** Thinnest and thickest layer allowed, mm: the ends of the colour scale. */
+  /** Minimum and maximum layer thickness, mm: the ends of the colour scale. */
   limits: readonly [number, number];
 }
 
-/** What charts and the view draw: from the last plan, or from a preview while the model is being turned or painted. */
+/** Data for charts and the view, from the last plan, or from a preview while the model is being turned or painted. */
 export interface Shown {
   metric: Metric;
-  /** The value of each bin: see `Plan`. */
+  /** Value of each bin: see `Plan`. */
   profile: Float32Array;
   bin_mm: number;
   /** Layer boundaries from 0 to the height of the model, mm. */
@@ -24,23 +24,23 @@ export interface Shown {
   limits: readonly [number, number];
   layers: number;
   print_time_s: number;
-  /** How far the model is above the plate, mm. */
+  /** Height of the model above the plate, mm. */
   lift_mm: number;
-  /** Vertex positions of the supports, nine numbers a facet, mm from the plate; null while there are none. */
+  /** Vertex positions of the supports, nine numbers per facet, in mm with z from the plate; null if there are none. */
   supports: Float32Array | null;
-  /** Vertex positions of the walls of the void, likewise; null while the model is solid. */
+  /** Vertex positions of the walls of the void, likewise; null for a solid model. */
   voids: Float32Array | null;
 }
 
-/** The height of the model without what is below it, mm. */
+/** Height of the model without the lift below it, mm. */
 export function ownHeight(report: Report): number {
   return report.height_mm - liftOf(report);
 }
 
-/** Height to which supports lift the models of a plate, mm. */
+/** Lift of the models of a plate by supports, mm. */
 const liftOf = ({ models }: Report): number => Math.max(0, ...models.map(({ supported }) => supported?.lift_mm ?? 0));
 
-/** Additions to a model. */
+/** Geometry added to a model. */
 interface Added {
   readonly supports?: Float32Array | undefined;
   readonly voids?: Float32Array | undefined;
@@ -54,7 +54,7 @@ export function shownOf(report: Report | Preview, profile: Float32Array, added: 
 
 const filled = (positions: Float32Array | undefined): Float32Array | null => (positions === undefined || positions.length === 0 ? null : positions);
 
-/** Returns true if two sets of options, with their keys in the same order, ask for the same plan. */
+/** Returns true if two sets of options, with their keys in the same order, describe the same plan. */
 export function areSame(a: Options | null, b: Options | null): boolean {
   return JSON.stringify(a) === JSON.stringify(b);
 }

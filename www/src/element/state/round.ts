@@ -1,6 +1,6 @@
-/** Rounding to numbers that are short and safe to offer. */
+/** Rounds numbers to few digits, safely for offers. */
 
-/** Relative error that a product of decimals may have: far less than the six digits that the core gives. */
+/** Relative error of a product of decimals: far below the six digits of the core. */
 const SLACK = 1e-9;
 
 /** Rounds a positive value up: to three decimals below 1, two below 10, one below 100, and to a whole number from 100 on. */

@@ -1,4 +1,4 @@
-/** Runs at most one task at a time, and reports its progress and its outcome. */
+/** Runs at most one task at a time, and reports its progress and outcome. */
 import { isAbort } from "../../api/error.js";
 import type { Watch } from "../../api/index.js";
 import type { Options } from "../../api/wire.js";
@@ -11,7 +11,7 @@ export interface RunnerHost {
 
 export interface Task {
   readonly kind: Busy["task"];
-  /** The name of its model, to be shown. */
+  /** Name of its model, for display. */
   readonly name: string;
   /** The options of a plan; null for other tasks. */
   readonly options: Options | null;
@@ -32,7 +32,7 @@ export class Runner {
     return this.#running?.task ?? null;
   }
 
-  /** Resolves with the call's value; null if it failed, was dropped, or another task has started meanwhile. */
+  /** Runs a task and resolves with the call's value; null if it failed, was dropped, or another task started meanwhile. */
   async run<T>(task: Task, failed: (error: unknown) => void, call: (watch: Watch) => Promise<T>): Promise<T | null> {
     const { kind, name } = task;
     const mine = { task, abort: new AbortController() };

@@ -1,9 +1,9 @@
-/** The calls of a slicer that are about a model, about the selected one. */
+/** The model calls of a slicer, directed at the selected model. */
 import type { Slicer } from "../../api/index.js";
 
 export type ModelCalls = Pick<Slicer, "measure" | "orient" | "plugs" | "positions" | "preview" | "readWeights" | "saliency" | "weightsFile">;
 
-/** @param idOf the slicer's number of the selected model; undefined: the first */
+/** @param idOf id of the selected model; undefined for the first */
 export function aboutSelected(slicer: ModelCalls, idOf: () => number | undefined): ModelCalls {
   const about = <Call extends object>(call: Call | undefined): Call & { model: number | undefined } => ({ ...(call as Call), model: idOf() });
   return {

@@ -1,4 +1,4 @@
-/** Edits of the model itself: turning it, painting weights, and applying an orientation. */
+/** Edits of the model itself: turning, painting weights, and applying an orientation. */
 import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA } from "../../api/index.js";

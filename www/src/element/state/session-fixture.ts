@@ -8,7 +8,7 @@ export let session: Session;
 
 export const settle = (): Promise<unknown> => vi.advanceTimersByTimeAsync(300);
 
-/** Starts a new session, as its element would with these options. */
+/** Starts a new session with these options, as its element would. */
 export function start(options?: ConstructorParameters<typeof Session>[2]): void {
   session = new Session({ requestUpdate: () => undefined }, slicer, options);
 }

@@ -62,7 +62,7 @@ test("another plate of a project is read in the place of the selected model, who
   expect(session.plate.entries.map(({ copies }) => copies)).toEqual([3, 1]);
   expect(session.model?.reading).toBe(reading);
   expect(session.result?.report.layers).toBe(33);
-  // A plate that cannot be read leaves the model.
+  // If the new plate cannot be read, the model stays.
   expect(await session.reread(UNREADABLE)).toBeNull();
   expect(session.plate.entries[0]?.model.reading).toBe(reading);
 });

@@ -1,4 +1,4 @@
-/** The price beside a plan. */
+/** Price of a plan. */
 import { expect, test } from "vitest";
 import type { SlicerError } from "../../api/error.js";
 import type { Price } from "../../api/wire.js";
@@ -17,7 +17,7 @@ test("a plan has a price once the page has prices, and every plan after it its o
   expect([session.pricing.price?.total, session.pricing.isPriced]).toEqual([1241, true]);
   session.change({ tolerances: { cusp: "0.05" } });
   await settle();
-  // While it is planned, the price is that of the plan on show.
+  // During planning, the price is that of the plan shown.
   expect([session.pricing.price?.total, session.pricing.isPriced]).toEqual([1241, true]);
   slicer.last.resolve(planOf(20));
   await settle();

@@ -1,7 +1,7 @@
 /**
- * The state of an element: its models, their settings, the last good result, and at most one running task.
+ * State of an element: its models, their settings, the last good result, and at most one running task.
  *
- * There is no DOM here: an element or a test hosts the session, is notified of changes, and renders its state.
+ * It has no DOM: an element or a test hosts the session, receives its changes, and renders its state.
  */
 import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import type { SlicerError } from "../../api/error.js";
@@ -20,14 +20,14 @@ import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import { DEFAULT_SETTINGS, rotationText } from "./settings.js";
 
-/** Failures that another try may not meet again. */
+/** Failures that may not recur on another try. */
 const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed", "worker-failed"]);
 
 export class Session extends Models {
   result: Result | null = null;
   /** The selected layer, counted from 0. */
   layer = 0;
-  /** What charts and the view draw; null before there is a plan. */
+  /** Data for charts and the view; null before there is a plan. */
   shown: Shown | null = null;
 
   readonly orientation: OrientationSearch;
@@ -38,13 +38,13 @@ export class Session extends Models {
   readonly #beside: Beside;
   readonly #follower: Follower;
   #timer: ReturnType<typeof setTimeout> | undefined;
-  /** Options to plan with once the running task has ended. */
+  /** Options to plan with at the end of the running task. */
   #next: Options | null = null;
-  /** The weights of the result. */
+  /** Weights of the result. */
   #weightsOf: Float32Array | null = null;
-  /** True if the newest plan has not succeeded. */
+  /** True if the newest plan has failed. */
   #failed = false;
-  /** What the core has refused to plan: it would refuse it again. */
+  /** Input that the core refused to plan and would refuse again. */
   #refused: { options: Options; weights: Float32Array | null } | null = null;
   #archive: { of: Result; file: PrintFile } | null = null;
 
@@ -86,12 +86,12 @@ export class Session extends Models {
     });
   }
 
-  /** The mask of the selected layer, or the previous mask while it is fetched. */
+  /** Mask of the selected layer; the previous mask until it arrives. */
   get mask(): Mask | null {
     return this.#beside.mask;
   }
 
-  /** The prices of a shop and the price by them: of the result, or that of the last one for a moment. */
+  /** Prices of a shop, and the price of the result, or briefly of the previous one. */
   get pricing(): Pick<Beside, "asked" | "price" | "isPriced"> {
     return this.#beside;
   }
@@ -101,12 +101,12 @@ export class Session extends Models {
     return this.#curve.points;
   }
 
-  /** The rotation of the model while the user is turning it; null otherwise. */
+  /** Rotation of the model while the user is turning it; otherwise null. */
   get turning(): Rotation | null {
     return this.#follower.turning;
   }
 
-  /** Returns true if test towers for the printer can be written now. */
+  /** State of the test towers for the printer. */
   get towers(): TowersState {
     if (this.busy?.task === "towers") return "writing";
     return this.busy === null && this.options !== null ? "ready" : "waiting";
@@ -117,7 +117,7 @@ export class Session extends Models {
     if (this.#isStarted) return;
     this.#isStarted = true;
     this.slicer.warm();
-    // A worker that does not start is reported by the next call.
+    // The next call reports a worker that does not start.
     void this.slicer.printers().then(
       (printers) => {
         this.printers = printers;
@@ -128,28 +128,28 @@ export class Session extends Models {
     );
   }
 
-  /** Returns true if a change of settings waits for a pause before it is planned. */
+  /** Returns true if a change of settings waits for its delay before planning. */
   get isPending(): boolean {
     return this.#timer !== undefined;
   }
 
-  /** Returns true if the result shown is for earlier settings, because the current ones give none. */
+  /** Returns true if the result belongs to earlier settings because the current ones have no plan. */
   get earlier(): boolean {
     return this.result !== null && this.busy === null && (Object.keys(this.faults).length > 0 || this.#failed);
   }
 
-  /** The tolerance that the core chose because none is typed for the current metric; null if unknown. */
+  /** Tolerance that the core chose for the current metric by default; null if unknown. */
   get taken(): number | null {
     const { result, settings } = this;
     return result?.report.metric === settings.metric && result.options.tolerance === undefined ? result.report.tolerance : null;
   }
 
-  /** Turns the model: previews it while it is being turned, and plans when it is released. */
+  /** Turns the model: previews it during the turn, and plans on release. */
   turn(rotation: Rotation, isFinal: boolean): void {
     if (!isFinal) return this.#follower.turn(rotation, this.options);
     this.#follower.stop();
     const text = rotationText(rotation);
-    // Turned back at once, a model still has its turn to go back to.
+    // A turn back has its own kind, so that the turn stays an undo step.
     this.change({ rotation: text }, text === "" ? "turn back" : "turn");
   }
 
@@ -172,13 +172,13 @@ export class Session extends Models {
     this.replan();
   }
 
-  /** Applies the tolerance of a point of the curve, as if it had been typed. */
+  /** Applies the tolerance of a point of the curve, as if typed. */
   takePoint(index: number): void {
     const point = this.curve?.[index];
     if (point !== undefined) this.change(withPoint(this.settings, point));
   }
 
-  /** From 0, the fastest print worth having, to 1, the finest; applied at once, or once the curve is known. */
+  /** Quality from 0, the fastest print worth having, to 1, the finest; applied at once, or once the curve is known. */
   set quality(quality: number | null) {
     this.#curve.wanted = quality;
     this.#takeQuality();
@@ -223,7 +223,7 @@ export class Session extends Models {
     void this.#beside.fetch();
   }
 
-  /** Makes the print file of the result; null without one, while a task runs, or if it failed or was cancelled. */
+  /** Makes the print file of the result; null if there is no result, a task runs, or the file failed or was cancelled. */
   async export(): Promise<PrintFile | null> {
     const { result } = this;
     if (result === null || this.busy !== null) return null;
@@ -233,13 +233,13 @@ export class Session extends Models {
     return file;
   }
 
-  /** Makes the print file of a plate; null as for {@link export}. */
+  /** Makes the print file of a plate; null as in {@link export}. */
   async exportPlate(plate: number): Promise<PrintFile | null> {
     if (this.result === null || this.busy !== null) return null;
     return this.write("export", (watch) => this.plate.export(watch, plate));
   }
 
-  /** Makes the print file of test towers for the printer; null if it cannot be made now, failed or was cancelled. */
+  /** Makes the print file of test towers for the printer; null if currently impossible, failed or cancelled. */
   async calibrateLayers(): Promise<PrintFile | null> {
     const { options, towers } = this;
     if (options === null || towers !== "ready") return null;
@@ -282,8 +282,8 @@ export class Session extends Models {
         this.#next = null;
         return;
       }
-      // A plan with other rays is obsolete. Any other task may end first: a plan with the same rays is nearly done, and the
-      // next one reuses its samples.
+      // A plan with other rays is obsolete. Any other task may end first: a plan with the same rays is nearly done, and the next one reuses
+      // its samples.
       if (task.options === null || sameRays(task.options, options)) {
         this.#next = options;
         return;
@@ -319,7 +319,7 @@ export class Session extends Models {
     void this.#beside.fetch();
   }
 
-  /** Remembers what was refused, if it was: a cancelled plan may succeed later. */
+  /** Records a refused plan; a cancelled one may succeed later. */
   #refuse(options: Options, weights: Float32Array | null): void {
     const { failure } = this;
     if (failure?.task !== "plan" || BY_CHANCE.has(failure.error.code)) return;
@@ -347,9 +347,9 @@ export class Session extends Models {
     const result = { ...plan, options, own, limits: report.layer_range_mm };
     this.result = result;
     this.#weightsOf = weights;
-    // Copies have their own.
+    // On a plate, each copy has its own supports.
     this.shown = shownOf(report, plan.profile, { supports: isSeveral ? undefined : plan.supports?.[selected], voids: plan.voids?.[selected] });
-    // Keep looking at the same height, or at the middle of a new model.
+    // Keeps the height of the selected layer; starts in the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;
     if (before === undefined) this.#beside.mask = null;
@@ -359,7 +359,7 @@ export class Session extends Models {
     void this.orientation.measure();
   }
 
-  /** Makes a file, then does what had to wait for it; null if it failed or was cancelled. */
+  /** Makes a file, then continues waiting work; null if it failed or was cancelled. */
   async write<Made extends Download>(kind: Busy["task"], call: (watch: Watch) => Promise<Made>): Promise<Made | null> {
     this.failure = null;
     const file = await this.run(kind, this.model?.name ?? "", null, call);

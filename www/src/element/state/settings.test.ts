@@ -163,7 +163,7 @@ test("numbers of a query may have a decimal comma and a unit, and become canonic
     exposure: "2.5",
   });
   expect(fromAddress("?metric=area&tolerance=5%25").tolerances).toEqual({ area: "5" });
-  // What cannot be read is kept, and explained beside its field.
+  // Unreadable text is kept, and explained at its field.
   expect(fromAddress("?height=1.000,5&step=x")).toMatchObject({ height: "1.000,5", step: "x" });
 });
 
@@ -244,10 +244,10 @@ test("a format for filament printers brings its limits, and takes them away agai
   expect(usualTolerance("cusp", null, "prusa-3mf")).toBe("0.091");
   expect({ ...chosen, ...withFormat(chosen, "orca-3mf") }).toMatchObject({ layerMin: "0.08", layerMax: "0.28" });
   expect({ ...chosen, ...withFormat(chosen, "") }).toEqual(DEFAULT_SETTINGS);
-  // What was typed stays.
+  // A typed value stays.
   const typed = { ...chosen, layerMax: "0.25" };
   expect({ ...typed, ...withFormat(typed, "") }).toEqual({ ...DEFAULT_SETTINGS, layerMax: "0.25" });
-  // A resin printer has a format of its own.
+  // A resin printer has its own format.
   expect({ ...chosen, ...withPrinter(chosen, "saturn-3") }).toEqual({ ...DEFAULT_SETTINGS, printer: "saturn-3" });
   const goo = { ...DEFAULT_SETTINGS, format: "goo" } as const;
   expect(withPrinter(goo, "saturn-3")).toEqual({ printer: "saturn-3" });
@@ -260,7 +260,7 @@ test("a nozzle brings its limits, unless others are typed, and is for filament p
   expect(options(wide)).toMatchObject({ nozzle_mm: 0.6, layer_min_mm: 0.12, layer_max_mm: 0.42 });
   expect(usualTolerance("cusp", null, "orca-3mf", "0.6")).toBe("0.156");
   expect({ ...wide, ...withNozzle(wide, "") }).toEqual(chosen);
-  // What is no nozzle, such as one half typed, has the limits of the usual one.
+  // An invalid nozzle, such as one half typed, implies the limits of the usual nozzle.
   expect({ ...wide, ...withNozzle(wide, "0.") }).toMatchObject({ layerMin: "0.08", layerMax: "0.28" });
   const typed = { ...chosen, layerMax: "0.2" };
   expect({ ...typed, ...withNozzle(typed, "0.6") }).toMatchObject({ layerMin: "0.12", layerMax: "0.2" });
@@ -282,7 +282,7 @@ test("walls make a model hollow, which drains unless that is turned off, and are
   const hollow = { ...DEFAULT_SETTINGS, wall: "1.5" };
   expect(options(DEFAULT_SETTINGS)).not.toHaveProperty("hollow");
   expect(options(hollow)).toMatchObject({ hollow: { wall_mm: 1.5, auto_drain: {} } });
-  // One setting for supports and holes.
+  // One setting controls both supports and holes.
   expect(options({ ...hollow, spare: "on" })).toHaveProperty("hollow", { wall_mm: 1.5, auto_drain: { spare: true } });
   expect(options({ ...hollow, spare: "on", supports: "light" })).toMatchObject({ supports: { spare: true }, hollow: { auto_drain: { spare: true } } });
   expect(options({ ...hollow, infill: "lattice", drain: "none" })).toHaveProperty("hollow", { wall_mm: 1.5, infill: {} });

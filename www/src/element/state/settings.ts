@@ -8,20 +8,20 @@ import { ADDRESS_CHARS, printerFrom, printerOf, printerText, type ChosenPrinter 
 import * as round from "./round.js";
 import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
 
-/** Lengths in mm: canonical numbers, or what was typed instead of one. */
+/** Lengths in mm: canonical numbers, or invalid text as typed. */
 interface Lengths {
   height: string;
   layerMin: string;
   layerMax: string;
   uniform: string;
   step: string;
-  /** Thickness of the walls of a hollow model; empty for a solid one. */
+  /** Wall thickness of a hollow model; empty for a solid one. */
   wall: string;
-  /** Width of a filament printer's nozzle; empty for the usual one. */
+  /** Nozzle diameter of a filament printer; empty for the usual one. */
   nozzle: string;
 }
 
-/** Exposures in s and a count, likewise; if one is empty, the resin's own applies. */
+/** Exposures in s and a count, likewise; empty for the resin's own. */
 interface Curing {
   exposure: string;
   bottomExposure: string;
@@ -35,47 +35,47 @@ interface Choices {
   minimize: Minimize;
   snap: Snap;
   rays: string;
-  /** True if facets that stand out count for more. */
+  /** If on, salient facets weigh more. */
   saliency: "off" | "on";
-  /** How strong supports are. */
+  /** Strength of supports. */
   supports: "none" | SupportStrength;
-  /** True if more are placed automatically beside those by hand. */
+  /** If on, automatic supports are added to those by hand. */
   fill: "off" | "on";
-  /** True if automatic ones, and automatic drain holes, keep off what is painted as important. */
+  /** If on, automatic supports and drain holes avoid areas painted as important. */
   spare: "off" | "on";
-  /** What stands in the void of a hollow model. */
+  /** Infill of a hollow model's void. */
   infill: "none" | "lattice";
-  /** True if a hollow model gets drain holes automatically. */
+  /** If auto, a hollow model gets drain holes automatically. */
   drain: "auto" | "none";
-  /** The minimum weight of a facet. */
+  /** Minimum weight of a facet. */
   weightMin: string;
-  /** Empty for the printer's own. */
+  /** Empty for the printer's own format. */
   format: FileFormat | "";
-  /** The unit of a file that states none; empty for millimetres. */
+  /** Unit of a file that states none; empty for millimetres. */
   unit: ModelUnit | "";
 }
 
-/** Settings without a fixed list of values; empty for none. */
+/** Free-form settings; empty for none. */
 interface Names {
   printer: ChosenPrinter;
   /** Name of one of the host's resins. */
   resin: string;
-  /** The rotation that puts the model in its pose: x, y, z and w of a unit quaternion, separated by commas. */
+  /** Rotation from the file to the pose: x, y, z and w of a unit quaternion, separated by commas. */
   rotation: string;
-  /** The points that are supported, and the drain holes, where they are placed by hand: see `placed.ts`. */
+  /** Support points and drain holes placed by hand: see `placed.ts`. */
   points: string;
   drains: string;
 }
 
 export interface Settings extends Lengths, Curing, Choices, Names {
-  /** Tolerances, likewise, each in the unit of its metric. If one is absent or empty, the core's default applies. */
+  /** Tolerances, likewise, each in the unit of its metric; if absent or empty, the core's default. */
   tolerances: Readonly<Partial<Record<Metric, string>>>;
 }
 
-/** A field that is typed, and may be invalid. */
+/** A text field, which may be invalid. */
 export type Field = keyof Lengths | keyof Curing | "tolerance";
 
-/** What is wrong with a field. */
+/** Fault of a field. */
 export type Fault =
   | { kind: Misread | "range"; value: number | null; least: number; most: number; unit: FieldUnit }
   | { kind: "upsideDown" | "whole" };
@@ -88,10 +88,10 @@ export interface Offered {
   resins: readonly Resin[];
 }
 
-/** The numbers of rays along the longer side that the form offers, coarse to fine. */
+/** Numbers of rays along the longer side offered by the form, coarse to fine. */
 export const RAYS = [512, 1024, 2048, 4096] as const;
 
-/** The minimum weights that the form offers. 0 is not one: it would allow any layer on a facet. */
+/** Minimum weights offered by the form. 0 is excluded: it would allow any layer on a facet. */
 export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
 
 const { defaults: DEFAULTS } = FACTS;
@@ -129,7 +129,7 @@ export const DEFAULT_SETTINGS: Settings = {
   tolerances: {},
 };
 
-/** The defaults of a format: slicers of filament printers have other limits of layers, which depend on the nozzle. */
+/** Defaults of a format: filament formats have other layer limits, which depend on the nozzle. */
 export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
   const layers = nozzleLayers(format, nozzleOf(nozzle));
   if (layers === null) return { ...DEFAULT_SETTINGS, format, nozzle };
@@ -138,13 +138,13 @@ export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
   return { ...DEFAULT_SETTINGS, format, nozzle, ...limits };
 }
 
-/** The width of a nozzle as typed; the usual one if that is none. */
+/** Nozzle diameter as typed; the usual one if invalid. */
 export function nozzleOf(nozzle: string): number {
   const typed = parse(nozzle) ?? Number.NaN;
   return typed >= NARROWEST_NOZZLE_MM && typed <= WIDEST_NOZZLE_MM ? typed : FACTS.nozzle_mm;
 }
 
-/** The change of limits that belongs to a change of format or nozzle: those that were the defaults stay the defaults. */
+/** Change of limits that goes with a change of format or nozzle: limits at their defaults follow the new defaults. */
 export function limitsFor(settings: Settings, format: FileFormat | "", nozzle = settings.nozzle): Partial<Settings> {
   const [before, after] = [defaultsOf(settings.format, settings.nozzle), defaultsOf(format, nozzle)];
   const change: Partial<Settings> = {};
@@ -152,34 +152,34 @@ export function limitsFor(settings: Settings, format: FileFormat | "", nozzle = 
   return change;
 }
 
-/** The settings after a change. Points placed by hand are in the frame of the pose, so another pose has none. */
+/** Settings after a change. Points by hand belong to a pose, so a new pose clears them. */
 export function changed(settings: Settings, change: Partial<Settings>): Settings {
   const isSame = (["rotation", "height", "unit"] as const).every((key) => change[key] === undefined || change[key] === settings[key]);
   return { ...settings, ...(isSame ? {} : withoutPlaced(settings)), ...change };
 }
 
-/** The change of settings that leaves all points to be placed automatically, if some are placed by hand. */
+/** Change of settings that makes all points automatic, if some are placed by hand. */
 export function withoutPlaced({ points, drains }: Settings): Partial<Settings> {
   return { ...(points !== "" && { points: "", fill: "off" }), ...(drains !== "" && { drains: "", drain: "auto" }) };
 }
 
-/** The change of settings that chooses a nozzle. */
+/** Change of settings that chooses a nozzle. */
 export function withNozzle(settings: Settings, nozzle: string): Partial<Settings> {
   return { ...limitsFor(settings, settings.format, nozzle), nozzle };
 }
 
-/** The change of settings that chooses a format. What only resin printers have is left out for filament printers. */
+/** Change of settings that chooses a format. For filament formats, it clears resin-only settings. */
 export function withFormat(settings: Settings, format: FileFormat | ""): Partial<Settings> {
   const change = { ...limitsFor(settings, format), format };
   return isFilament(format) ? { ...change, printer: "", minimize: DEFAULT_SETTINGS.minimize } : change;
 }
 
-/** The change of settings that chooses a printer, which has a format of its own. */
+/** Change of settings that chooses a printer and resets the format to its own. */
 export function withPrinter(settings: Settings, printer: ChosenPrinter): Partial<Settings> {
   return printer !== "" && isFilament(settings.format) ? { ...withFormat(settings, ""), printer } : { printer };
 }
 
-/** The units of the typed numbers, in the order of an address. */
+/** Units of the typed numbers, in the order of a URL. */
 const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
   height: "mm",
   layerMin: "mm",
@@ -195,7 +195,7 @@ const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
 
 const NUMBERS = Object.keys(UNITS) as (keyof typeof UNITS)[];
 
-/** The unit that a field is shown in, and that applies if none is typed. */
+/** Unit of a field, for display and for input without a unit. */
 export function unitOf(field: Field, metric: Metric): FieldUnit {
   return field === "tolerance" ? METRICS[metric].unit : UNITS[field];
 }
@@ -220,9 +220,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
 };
 
 /**
- * The defaults with the settings of a URL query, such as `?height=60&metric=area&tolerance=5`; other parameters are ignored.
- * Numbers are checked later, like typed ones, and may have a decimal comma and a unit; an unknown choice is ignored, as no field
- * could show it.
+ * Settings from a URL query such as `?height=60&metric=area&tolerance=5`, based on the defaults; other parameters are ignored. Numbers are
+ * checked later, like typed ones, and may have a decimal comma and a unit. An unknown choice is ignored, as no field could show it.
  */
 export function fromAddress(query: string): Settings {
   const address = new URLSearchParams(query);
@@ -251,8 +250,8 @@ export function fromAddress(query: string): Settings {
 }
 
 /**
- * The URL query from which {@link fromAddress} restores the settings: what differs from the defaults, in a fixed order. A very
- * long description of a printer is left out, and so are very many points.
+ * URL query from which {@link fromAddress} restores the settings: differences from the defaults, in a fixed order. A very long printer
+ * description and very many points are omitted.
  */
 export function toAddress(settings: Settings): string {
   const address = new URLSearchParams();
@@ -268,22 +267,22 @@ export function toAddress(settings: Settings): string {
   return address.toString();
 }
 
-/** The change of settings that sets the tolerance of the current metric. */
+/** Change of settings that sets the tolerance of the current metric. */
 export function withTolerance({ metric, tolerances }: Settings, text: string): Pick<Settings, "tolerances"> {
   return { tolerances: { ...tolerances, [metric]: text } };
 }
 
-/** The tolerance that applies if none is typed, in the form's unit: the one that the core chose, or will choose. */
+/** Default tolerance in the form's unit: the one that the core chose, or will choose. */
 export function usualTolerance(metric: Metric, taken: number | null, format: FileFormat | "" = "", nozzle = ""): string {
   const usual = usualOf(metric, format, nozzleOf(nozzle));
   const { scale } = METRICS[metric];
-  // The default is short enough as it is.
+  // The default has few enough digits.
   return String(taken === null || taken === usual ? Number((usual * scale).toFixed(6)) : round.up(taken * scale));
 }
 
 export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };
 
-/** The thickest layer a resin printer could cure; a larger number is a slip of the unit (µm for mm). */
+/** Maximum thickness that a resin printer could cure; a larger number is probably in µm. */
 const THICKEST_MM = 1;
 const THINNEST_MM = 0.001;
 const TALLEST_MM = 1000;
@@ -294,9 +293,7 @@ const MOST_BOTTOM_LAYERS = 100;
 
 const NONE: Offered = { printers: [], resins: [] };
 
-/**
- * The options for the core, or every fault at once. A field that the chosen planner does not use is not checked.
- */
+/** Options for the core, or all faults at once. Fields that the chosen planner does not use are not checked. */
 export function check(settings: Settings, { printers, resins }: Offered = NONE): Checked {
   const faults: Faults = {};
 
@@ -313,7 +310,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.saliency === "on") options.saliency = true;
   if (settings.weightMin !== DEFAULT_SETTINGS.weightMin) options.weight_min = Number(settings.weightMin);
   const printer = printerOf(settings.printer, printers);
-  // The core refuses an unknown name and a wrong description.
+  // The core checks an unknown name or a wrong description.
   if (settings.printer === "") options.rays = Number(settings.rays);
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
@@ -327,7 +324,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
   const isSparing = settings.spare === "on";
-  // Slicers of filament printers support and hollow by themselves.
+  // Slicers for filament printers add supports and hollow by themselves.
   if (settings.supports !== "none" && !isFilament(settings.format)) {
     options.supports = { strength: settings.supports };
     const points = placedFrom(settings.points, "points") ?? [];
@@ -357,7 +354,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     options.snap = settings.snap;
     if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = within("step", settings.step, THINNEST_MM, THICKEST_MM);
   }
-  // The range also sets the two uniform plans that the result is compared with, so both planners need it.
+  // Both planners need the range, which also defines the two uniform plans for comparison.
   const min = (options.layer_min_mm = layer("layerMin"));
   const max = (options.layer_max_mm = layer("layerMax"));
   if (min > max) faults.layerMax = { kind: "upsideDown" };
@@ -385,7 +382,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
 }
 
-/** A fault in words, for the user who typed it. */
+/** Explains a fault to the user. */
 export function faultWords(fault: Fault, { texts: { faults }, format }: Language): string {
   switch (fault.kind) {
     case "upsideDown":
@@ -406,19 +403,19 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
   }
 }
 
-/** The number of a setting; null if it is none. */
+/** Number of a setting; null if invalid. */
 export function parse(text: string): number | null {
   return read(text, "").value;
 }
 
-/** The unit quaternion x, y, z, w of the setting `rotation`; null if that is empty or invalid. */
+/** Unit quaternion x, y, z, w of the setting `rotation`; null if empty or invalid. */
 export function quaternion(text: string): [number, number, number, number] | null {
   const [x = NaN, y = NaN, z = NaN, w = NaN, ...more] = text.split(",").map(Number);
   const length = Math.hypot(x, y, z, w);
   return more.length === 0 && length > 0 ? [x / length, y / length, z / length, w / length] : null;
 }
 
-/** The setting `rotation` of a unit quaternion: to six decimals, and empty for the identity. */
+/** The setting `rotation` for a unit quaternion: six decimals, and empty for the identity. */
 export function rotationText(rotation: readonly number[]): string {
   const text = rotation.map((part) => String(Number(part.toFixed(6)) + 0)).join();
   return text === "0,0,0,1" ? "" : text;

@@ -1,4 +1,4 @@
-/** The models of the slicer, kept in step with those of a session. */
+/** Syncs the models of the slicer with those of a session. */
 import type { Loaded, LoadCall, Slicer, Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import type { ModelOptions } from "../../api/wire.js";
@@ -11,14 +11,14 @@ interface There {
   weights: Float32Array | null;
 }
 
-/** No options of a model's own. */
+/** Clears a model's own options. */
 const NOTHING = { copies: undefined, rotation: undefined, height_mm: undefined, hollow: undefined, supports: undefined };
 
 export type SyncCalls = Pick<Slicer, "add" | "load" | "positions" | "remove" | "setWeights" | "update">;
 
 export class Sync {
   readonly #slicer: SyncCalls;
-  /** By the keys of entries, in the order of the slicer's models. */
+  /** Entries in the slicer by key, in the order of its models. */
   readonly #there = new Map<number, There>();
   readonly #positions = new Map<number, Promise<Float32Array>>();
 
@@ -26,12 +26,12 @@ export class Sync {
     this.#slicer = slicer;
   }
 
-  /** Reads a model in place of all others, or beside them. */
+  /** Reads a model: with `isAlone`, it replaces all others; otherwise it is appended. */
   async read(source: Source, call: LoadCall, isAlone: boolean): Promise<Loaded> {
     return isAlone ? this.#slicer.load(source, call) : this.#slicer.add(source, {}, call);
   }
 
-  /** Notes that an entry is of a model that was read: the only one, or the last. */
+  /** Records the entry of a model just read: the only one, or the last. */
   note({ key, model: { id } }: Entry, isAlone: boolean, positions?: Float32Array): void {
     if (isAlone) {
       this.#there.clear();
@@ -41,19 +41,19 @@ export class Sync {
     if (positions !== undefined) this.#positions.set(key, Promise.resolve(positions));
   }
 
-  /** The slicer's number of an entry's model; undefined before it is there. */
+  /** The slicer's id of an entry's model; undefined until it is read. */
   idOf(key: number | undefined): number | undefined {
     return key === undefined ? undefined : this.#there.get(key)?.id;
   }
 
-  /** Tells the slicer what has changed since the last call; null if nothing has. Its models are then those of the entries, in their order. */
+  /** Sends changes since the last call to the slicer, whose models then match the entries in order. Null if there are none. */
   bring(entries: readonly Entry[], watch: Watch): Promise<void> | null {
     this.#leaveMisplaced(entries);
     const changed = entries.filter((entry) => this.#hasChanged(entry, entries));
     return changed.length === 0 ? null : this.#bring(changed, entries, watch);
   }
 
-  /** Sets the weights of an entry's model, if it is there. */
+  /** Sets the weights of an entry's model, if it has been read. */
   async paint(key: number, weights: Float32Array | null, watch: Watch): Promise<void> {
     const there = this.#there.get(key);
     if (there === undefined) return;
@@ -62,7 +62,7 @@ export class Sync {
     try {
       await this.#slicer.setWeights(weights, { ...watch, model: there.id });
     } catch (error) {
-      // Those of a later call stay.
+      // Weights of a later call stay.
       if (there.weights === weights) there.weights = before;
       throw error;
     }
@@ -98,7 +98,7 @@ export class Sync {
     if (there !== undefined) this.#slicer.remove(there.id).catch(() => undefined);
   }
 
-  /** The corners of all facets of a model, fetched once; none before it is there. */
+  /** Corners of all facets of a model, fetched once; empty until it is read. */
   positionsOf({ key }: Entry): Promise<Float32Array> {
     let positions = this.#positions.get(key);
     if (positions === undefined) {
@@ -110,7 +110,7 @@ export class Sync {
     return positions;
   }
 
-  /** Removes models that have others before them now, as after undo, and those that are gone: they are read again, in their order. */
+  /** Removes models that are gone, or out of order as after undo; the latter are read again in order. */
   #leaveMisplaced(entries: readonly Entry[]): void {
     const there = [...this.#there.keys()];
     const place = there.findIndex((key, i) => key !== entries[i]?.key);
@@ -123,7 +123,7 @@ export class Sync {
   }
 }
 
-/** Options of a model of its own among these. Those of a single copy have its pose. */
+/** A model's own options. Those of a single copy are empty, since the shared options have its pose. */
 function ownOf({ copies, own }: Entry, entries: readonly Entry[]): ModelOptions {
   if (entries.length === 1 && copies === 1) return {};
   return { copies, ...own };

@@ -78,14 +78,14 @@ test.each([
   ["1 000", ".,"],
   ["12\u202f345,5", ".,"],
   ["1'000", ".,"],
-  // One mark before three digits: a thousand or one, depending on the language.
+  // One mark before three digits: a thousand or one, by language.
   ["1,000", "."],
   ["1.000", ","],
   ["12.345 µm", ","],
 ])("%j separates thousands where the decimal mark is among %s", (text, marks) => {
   for (const decimal of marks) {
     expect(read(text, "mm", decimal).fault).toBe("grouped");
-    // Nor is what goes into the settings a number in any language.
+    // The stored text is not a number in any language either.
     for (const other of [".", ",", undefined]) expect(read(canonical(text, "mm", decimal), "mm", other).fault).toBe("grouped");
   }
 });

@@ -1,15 +1,12 @@
 /**
- * Numbers as people type them: with a decimal comma or point, with or without a unit. Settings hold them in canonical form:
- * digits with a decimal point, in the unit of the field.
+ * Parses numbers as users type them: with a decimal comma or point, with or without a unit. Settings store them in canonical form: digits
+ * with a decimal point, in the unit of the field.
  */
 
-/** The unit of a field; empty for a count. */
+/** Unit of a field; empty for a count. */
 export type FieldUnit = "mm" | "s" | "%" | "mm³" | "";
 
-/**
- * Why a text is no number for a field: it is none at all, it has a unit that does not fit, or thousands may be separated
- * in it.
- */
+/** Reason for which a text is not a valid number: not a number at all, an unsuitable unit, or possible digit grouping. */
 export type Misread = "number" | "unit" | "grouped";
 
 export type Reading = { value: number; fault: null } | { value: null; fault: Misread };
@@ -17,7 +14,7 @@ export type Reading = { value: number; fault: null } | { value: null; fault: Mis
 const MM_PER_INCH = 25.4;
 const MM_PER_MICROMETRE = 0.001;
 
-/** What may be typed after a number, as {@link tidied} has it, and how many of the field's unit it is. */
+/** Accepted units after a number, as normalised by {@link tidied}, with their size in the field's unit. */
 const UNITS: Readonly<Record<FieldUnit, ReadonlyMap<string, number>>> = {
   mm: new Map([
     ["mm", 1],
@@ -32,7 +29,7 @@ const UNITS: Readonly<Record<FieldUnit, ReadonlyMap<string, number>>> = {
   "": new Map(),
 };
 
-/** The units to name to somebody who typed another one. */
+/** Units suggested after an unsuitable one. */
 export const UNITS_SHOWN: Readonly<Record<FieldUnit, readonly string[]>> = {
   mm: ["mm", "µm", "cm", "in", "thou"],
   s: ["s", "ms", "min"],
@@ -41,17 +38,17 @@ export const UNITS_SHOWN: Readonly<Record<FieldUnit, readonly string[]>> = {
   "": [],
 };
 
-/** Decimals of a canonical number: a thousandth of what any field tells apart, far above the error of a product. */
+/** Decimals of a canonical number: a thousandth of any field's resolution, far above the error of a product. */
 const CANONICAL = new Intl.NumberFormat("en", { useGrouping: false, maximumFractionDigits: 9 });
 
 /**
- * The number of a text in the unit of its field, which applies if none is typed.
+ * Number of a text in the unit of its field, which is the default unit.
  *
- * A comma and a point are both decimal marks. Thousands must not be separated, by any mark: `1.000,5` is refused. So is a
- * text that reads as a thousand in one language and as one in another: with the mark that is not the reader's own before exactly
- * three digits, such as `1,000` in English and `1.000` in German. `0,065` is clear, as no thousands begin with 0.
+ * A comma and a point are both decimal marks. Digit grouping is refused, with any mark: `1.000,5` is invalid. So is a text that could be a
+ * thousand in one language and one in another, with the foreign mark before exactly three digits: `1,000` in English and `1.000` in German.
+ * `0,065` is unambiguous, as no grouped number begins with 0.
  *
- * @param decimal the decimal mark of the person's language; without it, either mark is taken as one
+ * @param decimal decimal mark of the user's language; by default, either mark is accepted
  */
 export function read(text: string, unit: FieldUnit, decimal?: string): Reading {
   const [, start = "", name = ""] = /^([\d.,'’\s]*)(.*)$/s.exec(tidied(text)) ?? [];
@@ -63,27 +60,27 @@ export function read(text: string, unit: FieldUnit, decimal?: string): Reading {
   return { value: Number(digits.replace(",", ".")) * scale, fault: null };
 }
 
-/** In lower case, with one form for spaces, digits and signs of every width, for both signs of micro, and for exponents. */
+/** Normalises a text: lower case, one form each for spaces, full-width digits and signs, the two signs for micro, and exponents. */
 function tidied(text: string): string {
   return text.replace(/[¹²³⁰-₉]/g, "^$&").normalize("NFKC").trim().toLowerCase();
 }
 
-/** Returns true if digits that might be thousands are certainly a number with a decimal mark. */
+/** Returns true if digits that might be grouped are certainly a decimal number. */
 function isPlain(digits: string, decimal: string | undefined): boolean {
   const [mark, ...more] = digits.replace(/\d/g, "");
   if (more.length > 0 || (mark !== "." && mark !== ",")) return false;
   return decimal === undefined || mark === decimal || digits.startsWith("0");
 }
 
-/** The canonical form of what was typed; a text that is no number stays one that is none in any language. */
+/** Canonical form of typed text; invalid text stays invalid in every language. */
 export function canonical(text: string, unit: FieldUnit, decimal?: string): string {
   const { value } = read(text, unit, decimal);
   if (value !== null) return CANONICAL.format(value);
-  // Settings have no language, which alone tells that `1.000` is no number.
+  // Settings have no language, by which alone `1.000` is known to be invalid.
   return read(text, unit).value === null ? text.trim() : text.trim().replace(/[.,]/, " ");
 }
 
-/** A canonical number with the decimal mark of a language; any other text as it is. */
+/** A canonical number with the decimal mark of a language; any other text unchanged. */
 export function localised(text: string, decimal: string): string {
   return /^\d*\.?\d*$/.test(text) ? text.replace(".", decimal) : text;
 }
