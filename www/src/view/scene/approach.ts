@@ -1,4 +1,4 @@
-/** Brings the camera near the largest stair steps of a model, and back to where it was. */
+/** Moves the camera near the largest stair steps of a model, and back. */
 import { Vector3 } from "three";
 import type { Triple } from "./pose.js";
 import type { Scene } from "./scene.js";
@@ -6,10 +6,10 @@ import { spotsOf } from "./spots.js";
 import { inParts } from "../steps/work.js";
 import { FLIGHT_MS, type Viewpoint } from "./viewpoint.js";
 
-/** Height of a stair step on the screen once the camera is near it, CSS pixels. */
+/** Height of a stair step on the screen after the approach, CSS pixels. */
 const STEP_PX = 8;
 
-/** What is to be seen from near. */
+/** A model with its layers. */
 export interface Stepped {
   readonly positions: Float32Array;
   /** Layer boundaries from 0 to the top, mm. */
@@ -18,7 +18,7 @@ export interface Stepped {
 
 export class Approach {
   readonly #scene: Scene;
-  /** The model that the camera has been sent to. */
+  /** The model that the camera has approached. */
   #of: Float32Array | null = null;
   #stop = new AbortController();
 
@@ -27,10 +27,10 @@ export class Approach {
   }
 
   /**
-   * Sends the camera to where the model has its largest stair steps on the side that faces the viewer, once for each model, so
-   * near that single steps can be told apart.
+   * Moves the camera close to the model's largest stair steps on the side facing the viewer, near enough to distinguish single steps. Once
+   * per model.
    *
-   * @param isCalm whether to go there at once
+   * @param isCalm true to move without a flight
    */
   go(to: Stepped, isCalm: boolean): void {
     if (to.positions === this.#of) return;
@@ -40,7 +40,7 @@ export class Approach {
     void this.#go(to, this.#flight(isCalm), this.#stop.signal);
   }
 
-  /** Brings the camera back to where it was, unless it was moved since. */
+  /** Moves the camera back, unless the user has moved it since. */
   leave(isCalm: boolean): void {
     if (this.#of === null) return;
     this.dispose();
@@ -53,13 +53,13 @@ export class Approach {
     this.#stop.abort();
   }
 
-  /** No flight where frames take long: it would be a few jumps. */
+  /** No flight on slow renderers, where it would be a few jumps. */
   #flight(isCalm: boolean): number {
     return isCalm || !this.#scene.isSmooth ? 0 : FLIGHT_MS;
   }
 
   async #go(to: Stepped, duration_ms: number, signal: AbortSignal): Promise<void> {
-    // The view may still be aligned, and the camera another.
+    // While the view is aligned, the other camera is in use.
     if (this.#scene.align() !== null) return;
     let place: Viewpoint | null;
     try {
@@ -73,7 +73,7 @@ export class Approach {
     this.#scene.invalidate();
   }
 
-  /** A place near the largest steps that nothing hides; if all are hidden, near the largest. */
+  /** A viewpoint near the largest unobstructed steps; if all are hidden, near the largest. */
   async #nearest({ positions, z_mm }: Stepped, signal: AbortSignal): Promise<Viewpoint | null> {
     const { cameras, model } = this.#scene;
     model.pivot.updateMatrixWorld();
@@ -85,7 +85,7 @@ export class Approach {
     let first: Viewpoint | null = null;
     for (const { facet, point, thickness_mm } of spots) {
       const target = new Vector3(...point).applyMatrix4(matrix);
-      // Seen from above, a step is lower.
+      // From above, a step appears lower.
       const seen_mm = thickness_mm * Math.hypot(direction.x, direction.y);
       const position = target.clone().addScaledVector(direction, cameras.distanceFor(seen_mm, STEP_PX));
       const place: Viewpoint = { position: position.toArray(), target: target.toArray() };

@@ -1,7 +1,7 @@
-/** Whether a plot is beside the view, told by where both are, and the room that aligns heights with it. */
+/** Detects by their positions that a plot is next to the view, and computes the insets that align heights with it. */
 import type { Inset } from "./cameras.js";
 
-/** The upper and lower edge of an element, CSS pixels. */
+/** Upper and lower edge of an element, CSS pixels. */
 export type Edges = Pick<DOMRectReadOnly, "top" | "bottom">;
 
 /** Tolerance for edges at fractions of a pixel. */
@@ -14,13 +14,13 @@ export function besideOf(view: Edges, plot: Edges): Inset | null {
   return isBeside ? inset : null;
 }
 
-/** The view's place, and that of a plot. */
+/** Observes the layout of the view and a plot. */
 export class Beside {
   readonly #view: HTMLElement;
   readonly #resized: ResizeObserver;
   #plot: HTMLElement | null = null;
 
-  /** @param changed called when either has another size: after layout, but before the browser paints */
+  /** @param changed called when either is resized: after layout, but before the browser paints */
   constructor(view: HTMLElement, changed: () => void, signal: AbortSignal) {
     this.#view = view;
     this.#resized = new ResizeObserver(changed);
@@ -34,7 +34,7 @@ export class Beside {
     if (plot !== null) this.#resized.observe(plot);
   }
 
-  /** As the layout is now; undefined without a plot, null if it is not beside the view. */
+  /** Insets in the current layout; undefined without a plot, null if it is not next to the view. */
   get inset(): Inset | null | undefined {
     return this.#plot === null ? undefined : besideOf(this.#view.getBoundingClientRect(), this.#plot.getBoundingClientRect());
   }

@@ -1,19 +1,19 @@
-/** The cameras of the view: one free and in perspective, one from the side at the scale of a chart beside the view. */
+/** The cameras of the view: a free one in perspective, and one from the side at the scale of a neighbouring chart. */
 import { MathUtils, OrthographicCamera, PerspectiveCamera, Vector3 } from "three";
 import { OrbitControls } from "three/addons/controls/OrbitControls.js";
 import type { Rotation, Triple } from "./pose.js";
 import { FIRST_LOOK } from "./turn.js";
 import { areSame, between, eased, type Viewpoint } from "./viewpoint.js";
 
-/** Where heights appear in the view, CSS pixels from its upper edge. */
+/** Positions of heights in the view, CSS pixels from its upper edge. */
 export interface Frame {
-  /** The top of the model. */
+  /** Top of the model. */
   readonly top_px: number;
-  /** The plate, z = 0. */
+  /** Plate, z = 0. */
   readonly bottom_px: number;
 }
 
-/** Room above and below the heights shown when aligned, CSS pixels. */
+/** Room above and below the heights shown in an aligned view, CSS pixels. */
 export interface Inset {
   readonly top_px: number;
   readonly bottom_px: number;
@@ -22,7 +22,7 @@ export interface Inset {
 /** A range of heights, mm. */
 export type Heights = readonly [bottom: number, top: number];
 
-/** Where an aligned view shows which heights. */
+/** Height range of an aligned view, and its position there. */
 export interface Alignment {
   /** Null for the whole model. */
   readonly heights_mm: Heights | null;
@@ -31,21 +31,21 @@ export interface Alignment {
 
 const FIELD_OF_VIEW_DEG = 26;
 
-/** Room around the model in the free view. */
+/** Margin factor around the model in the free view. */
 const ROOM = 1.14;
 
 /** Limits of the camera's distance, as multiples of that at which the whole model is visible. */
 const NEAREST = 0.05;
 const FARTHEST = 6;
 
-/** How steeply a place is looked at, as rise over run. */
+/** Steepness of the view of a place, as rise over run. */
 const SIDEWAYS = 0.6;
 
-/** A place that is faced covers at least this many pixels, unless it is smaller than this part of the model. */
+/** A place faced by the camera covers at least this many pixels, unless it is smaller than this fraction of the model. */
 const FACED_PX = 180;
 const FACED_PART = 0.3;
 
-/** How much of its width and height a view is sure to show. */
+/** Fraction of a view's width and height that counts as visible. */
 const SIGHT = 0.9;
 
 const FIRST = new Vector3(...FIRST_LOOK);
@@ -57,7 +57,7 @@ export function perspective(): PerspectiveCamera {
   return camera;
 }
 
-/** Distance from a model's middle along `look`, a direction, at which all corners of its bounds are just visible. */
+/** Distance from the model's centre in direction `look` at which all corners of its bounds are just visible. */
 export function distanceOf(size_mm: Triple, look: Vector3, aspect: number): number {
   const right = new Vector3(0, 0, 1).cross(look).normalize();
   const up = look.clone().cross(right);
@@ -72,7 +72,7 @@ export function distanceOf(size_mm: Triple, look: Vector3, aspect: number): numb
   return distance;
 }
 
-/** Puts a camera at the first view of a model, with all of the model visible. */
+/** Moves a camera to the initial view, with the whole model visible. */
 export function lookFirst(camera: PerspectiveCamera, size_mm: Triple): void {
   const middle = new Vector3(0, 0, size_mm[2] / 2);
   const distance = distanceOf(size_mm, FIRST, camera.aspect);
@@ -85,7 +85,7 @@ export function lookFirst(camera: PerspectiveCamera, size_mm: Triple): void {
 
 const QUARTER_TURN = Math.PI / 2;
 
-/** The camera on its way. */
+/** A camera movement in progress. */
 interface Flight {
   readonly from: Viewpoint;
   readonly to: Viewpoint;
@@ -100,15 +100,15 @@ export class Cameras {
   #aligned = false;
   #size_mm: Triple = [1, 1, 1];
   #view: readonly [number, number] = [1, 1];
-  /** Where the free camera was before the view was aligned, to be restored afterwards. */
+  /** Viewpoint of the free camera before the view was aligned, to restore afterwards. */
   #left: Viewpoint | null = null;
   #flight: Flight | null = null;
-  /** The least distance where the camera has approached a place. */
+  /** Minimum distance near a place that the camera has approached. */
   #nearest = Infinity;
-  /** Where the free camera was before it approached a place, and where it went. */
+  /** Viewpoints of the free camera before and after it approached a place. */
   #approached: { readonly from: Viewpoint; readonly to: Viewpoint } | null = null;
 
-  /** @param surface gets its `touch-action` from the style sheet, not from here */
+  /** @param surface keeps its `touch-action` from the style sheet */
   constructor(surface: HTMLElement) {
     this.#side.up.set(0, 0, 1);
     this.controls = new OrbitControls(this.#free, surface);
@@ -127,7 +127,7 @@ export class Cameras {
     this.controls.dampingFactor = 0.12;
   }
 
-  /** Takes the size of the view. A camera that nobody has moved goes on showing the whole model. */
+  /** Sets the size of the view. A camera not yet moved by the user keeps showing the whole model. */
   setView(width_px: number, height_px: number): void {
     const at = this.#aligned ? this.#left : this.#viewpoint;
     const isFirst = this.#flight === null && at !== null && areSame(at, this.#first);
@@ -142,7 +142,7 @@ export class Cameras {
     }
   }
 
-  /** Follows a model that has changed its pose: moves up or down with the model's middle. */
+  /** Follows a model that has changed its pose: moves up or down with the model's centre. */
   follow(size_mm: Triple): void {
     const risen = (size_mm[2] - this.#size_mm[2]) / 2;
     this.#size_mm = size_mm;
@@ -153,7 +153,7 @@ export class Cameras {
     this.#limit();
   }
 
-  /** Returns to the first view of the whole model. */
+  /** Returns to the initial view of the whole model. */
   reset(size_mm: Triple = this.#size_mm): void {
     this.#size_mm = size_mm;
     this.#left = this.#flight = this.#approached = null;
@@ -166,7 +166,7 @@ export class Cameras {
     this.#goTo(this.#first);
   }
 
-  /** Turns about the target: to the right and upwards, degrees. */
+  /** Turns around the target, to the right and upwards, degrees. */
   turn(right_deg: number, up_deg: number): void {
     this.#flight = null;
     this.controls.rotateLeft(-MathUtils.degToRad(right_deg));
@@ -199,25 +199,25 @@ export class Cameras {
     } else this.reset();
   }
 
-  /** The direction in which to approach a place: that of the free camera now, but not steeper than half-way from above. */
+  /** Direction for approaching a place: that of the free camera, but at most 45° steep. */
   get approach(): Triple {
     const { position, target } = this.#viewpoint;
     const [x, y, z] = [position[0] - target[0], position[1] - target[1], position[2] - target[2]];
     const level = Math.hypot(x, y);
     const height = Math.sign(z) * Math.min(Math.abs(z), Math.max(level, 1e-9));
-    // Straight from above there is no level direction: the front then.
+    // Vertical views have no level direction, so use the front.
     const away = new Vector3(level > 0 ? x : 0, level > 0 ? y : -1, level > 0 ? height : Math.sign(z)).normalize();
     return [away.x, away.y, away.z];
   }
 
-  /** The distance at which a length across the line of sight covers so many pixels of the view; at most that of the whole model. */
+  /** Distance at which a length across the line of sight covers this many pixels of the view; at most that of the whole model. */
   distanceFor(length_mm: number, pixels: number): number {
     const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
     const whole = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
     return Math.min(whole, (this.#view[1] * length_mm) / (2 * slope * pixels));
   }
 
-  /** A camera there, of the view's shape, to try what it sees. */
+  /** A camera at this viewpoint with the view's shape, for visibility tests. */
   tried({ position, target }: Viewpoint): PerspectiveCamera {
     const camera = perspective();
     const away = new Vector3(...position).distanceTo(new Vector3(...target));
@@ -231,12 +231,12 @@ export class Cameras {
     return camera;
   }
 
-  /** Where the free camera is, or is on its way to. */
+  /** Viewpoint of the free camera, or the end of its flight. */
   get goal(): Viewpoint {
     return this.#flight?.to ?? this.#viewpoint;
   }
 
-  /** Returns true if a camera there has a point of the scene in its view, where nothing hides it, and not at the very edge. */
+  /** Returns true if a camera at this viewpoint has a point within its view, not at the very edge. Ignores occlusion. */
   shows(from: Viewpoint, point: Vector3): boolean {
     const { x, y, z } = point.clone().project(this.tried(from));
     return Math.max(Math.abs(x), Math.abs(y)) < SIGHT && z < 1;
@@ -246,7 +246,7 @@ export class Cameras {
     if (!this.#aligned) this.#fly(this.#viewpoint, to, duration_ms);
   }
 
-  /** Moves the free camera to a place, from which `withdraw` brings it back. */
+  /** Moves the free camera to a viewpoint, from which `withdraw` returns. */
   approachTo(to: Viewpoint, duration_ms: number): void {
     if (this.#aligned) return;
     const from = this.#viewpoint;
@@ -257,28 +257,28 @@ export class Cameras {
     this.#fly(from, to, duration_ms);
   }
 
-  /** Turns a place to the viewer: about z where the view is aligned, otherwise from outside, and near enough to see `length_mm` there. */
+  /** Turns a place to the viewer: around z in an aligned view, otherwise from outside, near enough to see `length_mm` there. */
   face([x, y, z]: Triple, length_mm: number, duration_ms: number): void {
     const outward = Math.hypot(x, y);
-    // In the middle no side is nearer than another.
+    // In the middle of the model, no side is nearer than another.
     const isCentral = outward < 0.02 * Math.hypot(...this.#size_mm);
     if (this.#aligned) {
       if (!isCentral) this.#lookAlong(QUARTER_TURN, Math.atan2(x, -y));
       return;
     }
     const [fx, fy] = isCentral ? FIRST_LOOK : [x / outward, y / outward];
-    // From below where the place is in the lower half.
+    // From below for places in the lower half.
     const direction = new Vector3(fx, fy, 0).normalize().setZ(2 * z < this.#size_mm[2] ? -SIDEWAYS : SIDEWAYS).normalize();
     const whole_mm = Math.hypot(...this.#size_mm);
     const away = this.distanceFor(Math.max(length_mm, FACED_PART * whole_mm), FACED_PX);
     const position = new Vector3(x, y, z).addScaledVector(direction, away).toArray();
     const before = this.#approached?.from;
     this.approachTo({ position, target: [x, y, z] }, duration_ms);
-    // From one place to the next: the way back leads to where the first one began.
+    // After several places in a row, the way back leads to the viewpoint before the first.
     if (before !== undefined && this.#approached !== null) this.#approached = { ...this.#approached, from: before };
   }
 
-  /** Brings the free camera back to where it was before it approached a place, unless it was moved since. */
+  /** Moves the free camera back to its viewpoint before the approach, unless the user has moved it since. */
   withdraw(duration_ms: number): void {
     const approached = this.#approached;
     this.#approached = null;
@@ -288,7 +288,7 @@ export class Cameras {
     if (isUntouched) this.#fly(now, approached.from, duration_ms);
   }
 
-  /** Takes the camera further on its way; returns whether it has not arrived. */
+  /** Advances a camera movement; returns true until it ends. */
   advance(now_ms: number): boolean {
     const flight = this.#flight;
     if (flight === null) return false;
@@ -298,7 +298,7 @@ export class Cameras {
     return part < 1;
   }
 
-  /** Prepares the current camera for drawing; returns where heights appear, or `null` in perspective. */
+  /** Prepares the current camera for drawing; returns the positions of heights, or null in perspective. */
   prepare(alignment: Alignment | null): Frame | null {
     const reach = Math.hypot(...this.#size_mm);
     if (!this.#aligned || alignment === null) {
@@ -312,7 +312,7 @@ export class Cameras {
     const [width, height] = this.#view;
     const [bottom, top] = heights ?? [0, this.#size_mm[2]];
     const room = Math.max(1, height - inset.top_px - inset.bottom_px);
-    // Turning about z must not change the scale, so the diagonal counts.
+    // The scale must not change during a turn around z, so the diagonal counts.
     const across = Math.hypot(this.#size_mm[0], this.#size_mm[1]);
     const perPixel = Math.max((top - bottom) / room, heights === null ? across / (0.94 * width) : 0, 1e-9);
     const lowest = bottom - inset.bottom_px * perPixel;
@@ -326,7 +326,7 @@ export class Cameras {
       far: 20 * reach,
     });
     this.#side.updateProjectionMatrix();
-    // To hundredths, so that rounding errors do not count as a change.
+    // Rounded to hundredths, so that rounding errors do not count as a change.
     const rowOf = (z_mm: number): number => Math.round(100 * (height - (z_mm - lowest) / perPixel)) / 100;
     return { top_px: rowOf(this.#size_mm[2]), bottom_px: rowOf(0) };
   }
@@ -337,7 +337,7 @@ export class Cameras {
     return [x, y, z, w];
   }
 
-  /** Where a point of the scene is in the view, CSS pixels. */
+  /** Position of a point of the scene in the view, CSS pixels. */
   project(point: Vector3): readonly [number, number] {
     const { x, y } = point.clone().project(this.current);
     return [((x + 1) / 2) * this.#view[0], ((1 - y) / 2) * this.#view[1]];
@@ -347,7 +347,7 @@ export class Cameras {
     this.controls.dispose();
   }
 
-  /** Where all of the model is seen first. */
+  /** Initial viewpoint, which shows the whole model. */
   get #first(): Viewpoint {
     const middle = this.#size_mm[2] / 2;
     const [x, y, z] = FIRST.toArray().map((part) => part * distanceOf(this.#size_mm, FIRST, this.#free.aspect)) as [number, number, number];
@@ -377,7 +377,7 @@ export class Cameras {
     this.controls.maxDistance = FARTHEST * distance;
   }
 
-  /** Polar angle from above and azimuth from the front. */
+  /** Sets the polar angle from above and the azimuth from the front. */
   #lookAlong(polar: number, azimuth: number): void {
     const reach = 10 * Math.hypot(...this.#size_mm);
     const target = new Vector3(0, 0, this.#size_mm[2] / 2);

@@ -33,7 +33,7 @@ test("copies are lifted with the model, and are as high with what is below them"
   copies.dispose();
 });
 
-/** What is drawn. */
+/** Meshes drawn. */
 function meshesOf({ group }: Copies): Mesh[] {
   const meshes: Mesh[] = [];
   group.traverse((it) => it instanceof Mesh && meshes.push(it));
@@ -51,7 +51,7 @@ test("copies are moved and turned with their supports, which have their heights 
   copies.group.updateMatrixWorld();
   const supported = meshesOf(copies).filter((mesh) => mesh.material === material);
   const points = supported.map((mesh) => new Vector3(4, 0, 5).applyMatrix4(mesh.matrixWorld).toArray().map(Math.round));
-  // Not the selected one, which is drawn as the model.
+  // Without the selected copy, which is drawn as the model.
   expect(points).toEqual([[20, 4, 5], [-16, 0, 5], [4, 9, 5]]);
   expect(supported[0]?.geometry).toBe(supported[2]?.geometry);
   const gone: string[] = [];

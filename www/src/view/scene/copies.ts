@@ -1,12 +1,12 @@
-/** The copies on a plate besides the selected one, whose facets the model has. They share its colours of layers. */
+/** The copies on a plate except the selected one, which is drawn as the model. They share its layer colours. */
 import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, Matrix4, Mesh, Quaternion, RawShaderMaterial, Sphere, Vector3, type IUniform } from "three";
 import type { Rgb } from "../legend/palette.js";
 import { extentOf, sizeOf, standing, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 
-/** A model as its copies stand: turned and scaled. */
+/** A model in the pose and scale of its copies. */
 export interface Shape {
-  /** Nine numbers a facet, mm, in the file's pose. */
+  /** Nine numbers per facet, mm, in the file's pose. */
   readonly positions: Float32Array;
   readonly rotation: Rotation;
   readonly scale: number;
@@ -14,7 +14,7 @@ export interface Shape {
 
 /** A copy on the plate. */
 export interface Copy {
-  /** Tells it from the others while it is moved. */
+  /** Identifies the copy while it is moved. */
   readonly place: number;
   /** Copies of one model share this object. */
   readonly shape: Shape;
@@ -22,29 +22,29 @@ export interface Copy {
   readonly y_mm: number;
   /** Counter-clockwise as seen from above. */
   readonly turn_deg: number;
-  /** True if it overlaps another, or extends beyond the plate. */
+  /** True if the copy overlaps another or extends beyond the plate. */
   readonly isCrowded: boolean;
-  /** Nine numbers a facet, mm from the plate, for a copy in the middle that is not turned; copies of one model share it. */
+  /** Nine numbers per facet, mm, for an unrotated copy in the middle, z from the plate; shared by copies of one model. */
   readonly supports: Float32Array | null;
 }
 
 interface Posed {
   readonly geometry: BufferGeometry;
-  /** Puts the file's points on the middle of the plate. */
+  /** Transforms the file's points to the middle of the plate. */
   readonly matrix: Matrix4;
   readonly size_mm: Triple;
 }
 
 const UP = new Vector3(0, 0, 1);
 
-/** The turn about z and the place of a copy. */
+/** Turn about z and position of a copy, as a matrix. */
 export function matrixOf({ x_mm, y_mm, turn_deg }: Pick<Copy, "x_mm" | "y_mm" | "turn_deg">): Matrix4 {
   return new Matrix4().makeRotationAxis(UP, (turn_deg * Math.PI) / 180).setPosition(x_mm, y_mm, 0);
 }
 
 export class Copies {
   readonly group = new Group();
-  /** The copies, which are lifted, and their supports, which are not. */
+  /** Bodies of the copies, which are lifted, and their supports, which are not. */
   readonly #bodies = new Group();
   readonly #supports = new Group();
   readonly #plain: RawShaderMaterial;
@@ -54,7 +54,7 @@ export class Copies {
   readonly #supported = new Map<Float32Array, BufferGeometry>();
 
   /**
-   * @param uniforms of the model, whose colours by layers and of resin the copies share
+   * @param uniforms those of the model, for the same layer and resin colours
    * @param ofSupports the material of the model's supports
    */
   constructor(uniforms: Record<string, IUniform>, ofSupports: RawShaderMaterial) {
@@ -72,7 +72,7 @@ export class Copies {
     this.group.add(this.#bodies, this.#supports);
   }
 
-  /** How far supports lift all models above the plate, mm. */
+  /** Lift of all models above the plate by supports, mm. */
   get lift_mm(): number {
     return this.#bodies.position.z;
   }
@@ -86,7 +86,7 @@ export class Copies {
     if (resin !== undefined) resin.value = new Vector3(r, g, b).divideScalar(255);
   }
 
-  /** The material of a copy that is where it cannot stay. */
+  /** Material of copies with faulty placements. */
   get crowded(): RawShaderMaterial {
     return this.#crowded;
   }
@@ -115,7 +115,7 @@ export class Copies {
     }
   }
 
-  /** Size of a copy with what is below it. */
+  /** Size of a copy including the lift below it. */
   sizeOf(shape: Shape): Triple {
     const [x, y, z] = this.#of(shape).size_mm;
     return [x, y, z + this.lift_mm];
@@ -145,7 +145,7 @@ export class Copies {
   }
 }
 
-/** Facets with bounds, so that three.js does not go through all the points again to compute them. */
+/** Geometry with infinite bounds, which saves three.js a pass over all points. */
 function geometryOf(positions: Float32Array): BufferGeometry {
   const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
   geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
@@ -158,14 +158,14 @@ function fixed(mesh: Mesh, matrix: Matrix4): Mesh {
   return mesh;
 }
 
-/** Width and depth of a copy's box. */
+/** Width and depth of a copy's bounding box. */
 function boxOf({ shape, turn_deg }: Copy, sizeOf: (shape: Shape) => Triple): readonly [number, number] {
   const [width, depth] = sizeOf(shape);
   const [across, along] = [Math.abs(Math.cos((turn_deg * Math.PI) / 180)), Math.abs(Math.sin((turn_deg * Math.PI) / 180))];
   return [across * width + along * depth, along * width + across * depth];
 }
 
-/** The smallest box about the middle of the plate that holds all copies. */
+/** Size of the smallest box around the middle of the plate that contains all copies. */
 export function sizeOfAll(copies: readonly Copy[], sizeOf: (shape: Shape) => Triple): Triple {
   let [x, y, z] = [0, 0, 0];
   for (const copy of copies) {

@@ -1,16 +1,16 @@
-/** Drags that a tool of the view takes from the camera. */
+/** Drags that a tool of the view takes over from the camera. */
 import type { Point } from "./pointer.js";
 
-/** What a tool does with a drag. */
+/** Handlers of a tool for drags. */
 export interface Drags {
-  /** Returns whether the tool takes the drag that begins here; otherwise it is the camera's. */
+  /** Returns true if the tool handles the drag that begins here; otherwise the camera does. */
   begin(at: Point, event: PointerEvent): boolean;
   follow(at: Point): void;
-  /** @param isDone whether the pointer was released, and not taken away */
+  /** @param isDone true if the pointer was released, false if the drag was cancelled */
   end(at: Point, isDone: boolean): void;
 }
 
-/** Watches the main button over `holder` until the signal is aborted, before the camera's controls see it. */
+/** Watches drags with the main button over `holder`, before the camera's controls receive them, until the signal is aborted. */
 export function watchDrags(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, drags: Drags, signal: AbortSignal): void {
   const options = { capture: true, signal };
   let dragging: number | null = null;

@@ -1,8 +1,8 @@
-/** The flat face of a model that a facet belongs to: what a user means by clicking the facet. */
+/** Flat face of a model around a facet: the meaning of a click on that facet. */
 import type { Topology } from "./topology.js";
 import type { Triple } from "./pose.js";
 
-/** Largest angle between the normals of a face's facets and that of the clicked facet, degrees. */
+/** Maximum angle between the normals of a face's facets and that of the clicked facet, degrees. */
 export const FLAT_WITHIN_DEG = 1;
 
 export interface FlatFace {
@@ -22,8 +22,8 @@ export function doubleArea(positions: Float32Array, facet: number): Triple {
 }
 
 /**
- * The facets connected to `facet` whose normals lie within `within_deg` of its own. Facets without area always belong to
- * the face. `null` if the facet itself has no area.
+ * Facets connected to `facet` with normals within `within_deg` of its own. Facets without area always belong to the face. Null if the facet
+ * itself has no area.
  */
 export function flatFace(
   positions: Float32Array,

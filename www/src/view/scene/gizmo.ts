@@ -3,23 +3,23 @@ import type { Camera, Object3D } from "three";
 import { TransformControls } from "three/addons/controls/TransformControls.js";
 import type { Rotation } from "./pose.js";
 
-/** Step by which the model turns while Shift is held, radians. */
+/** Turning step while Shift is held, radians. */
 const SNAP = Math.PI / 12;
 
-/** Size of the rings in the controls' own unit, such that the outermost stays inside a square view. */
+/** Size of the rings in the controls' own unit, which keeps the outermost inside a square view. */
 const SIZE = 2.5;
 
-/** Colours of the x, y and z rings and of the ring under the pointer, legible on light and on dark pages. */
+/** Colours of the x, y and z rings and of the ring under the pointer, legible on light and dark pages. */
 const COLOURS = ["#d9534f", "#4f9d5d", "#4a80d4", "#e6a117"] as const;
 
 export interface GizmoReports {
-  /** The drag of a ring has started or ended. */
+  /** Called when the drag of a ring starts or ends. */
   held(on: boolean): void;
-  /** The rings must be redrawn. */
+  /** Called when the rings need redrawing. */
   changed(): void;
-  /** The drag has turned the model to this rotation. */
+  /** Called when the drag has turned the model to this rotation. */
   turned(rotation: Rotation): void;
-  /** The drag has ended at this rotation. */
+  /** Called when the drag has ended at this rotation. */
   done(rotation: Rotation): void;
 }
 
@@ -31,7 +31,7 @@ export class Gizmo {
 
   constructor(camera: Camera, surface: HTMLElement, scene: Object3D, reports: GizmoReports) {
     const controls = new TransformControls(camera, surface);
-    // The style sheet says which touches are the page's.
+    // Resets the inline style: the style sheet decides which touches belong to the page.
     surface.style.touchAction = "";
     this.#controls = controls;
     controls.setMode("rotate");
@@ -62,7 +62,7 @@ export class Gizmo {
     return this.#controls.axis !== null || this.#controls.dragging;
   }
 
-  /** @param aspect width of the view over its height */
+  /** @param aspect width of the view divided by its height */
   fit(aspect: number): void {
     this.#controls.setSize(SIZE * Math.min(1, aspect));
   }

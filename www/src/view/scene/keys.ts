@@ -1,7 +1,7 @@
 /** Maps keys to actions of the view. */
 import { places } from "./places.js";
 
-/** What the pointer does. */
+/** Meaning of pointer input in the view. */
 export type Tool = "turn" | "move" | "rotate" | "flat" | "paint" | "supports" | "drains";
 
 export type Action =
@@ -15,14 +15,14 @@ export type Action =
   | { readonly do: "remove-point" | "lock-point" }
   | { readonly do: "undo-stroke" | "redo-stroke" };
 
-/** Degrees by which a key press turns the view. */
+/** Degrees per key press for turning the view. */
 const VIEW_DEG = 10;
 
-/** Degrees by which a key press turns the model, without and with Shift. */
+/** Degrees per key press for turning the model, without and with Shift. */
 const MODEL_DEG = 5;
 const MODEL_FINE_DEG = 1;
 
-/** Millimetres by which a key press moves a copy, without and with Shift, and degrees by which it turns it. */
+/** Millimetres per key press for moving a copy, without and with Shift, and degrees for turning it. */
 const MOVE_MM = 1;
 const MOVE_FAR_MM = 10;
 const COPY_DEG = 15;
@@ -30,7 +30,7 @@ const COPY_FAR_DEG = 45;
 
 const ZOOM = 1.2;
 
-/** Which way each key turns: across, up, and about the third axis. */
+/** Turning direction of each key: across, up, and about the third axis. */
 const WAYS: Readonly<Record<string, readonly [number, number, number]>> = {
   ArrowLeft: [-1, 0, 0],
   ArrowRight: [1, 0, 0],
@@ -40,7 +40,7 @@ const WAYS: Readonly<Record<string, readonly [number, number, number]>> = {
   PageDown: [0, 0, -1],
 };
 
-/** The action of a key with this tool; null for keys left to the page. */
+/** Action of a key with this tool; null for keys left to the page. */
 export function pressed(
   { key, shiftKey, ctrlKey, metaKey, altKey }: Pick<KeyboardEvent, "key" | "shiftKey" | "ctrlKey" | "metaKey" | "altKey">,
   tool: Tool,

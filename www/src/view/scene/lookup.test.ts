@@ -8,7 +8,7 @@ function plan(layers: number): number[] {
   return out;
 }
 
-/** Linear search, obviously correct. */
+/** Naive linear search. */
 function naive(boundaries: readonly number[], z: number): number {
   const found = boundaries.findIndex((bottom, layer) => bottom <= z && z < (boundaries[layer + 1] ?? Infinity));
   return Math.min(Math.max(found, 0), boundaries.length - 2);
@@ -30,7 +30,7 @@ it("clamps to the first and the last layer beyond the ends", () => {
   expect(layerAt(plan(5), 100)).toBe(4);
 });
 
-/** `layerAt` as the shader has it, on the texture. Returns the steps that it took as well. */
+/** `layerAt` as in the shader, on the texture. Also returns the number of steps. */
 function shaded(texture: Float32Array, layers: number, cellsPerMm: number, z: number): [layer: number, steps: number] {
   const cell = Math.min(Math.max(Math.trunc(Math.fround(Math.fround(z) * Math.fround(cellsPerMm))), 0), CELLS * layers - 1);
   const first = texture[layers + 1 + cell] ?? NaN;

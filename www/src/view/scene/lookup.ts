@@ -1,16 +1,16 @@
 /**
- * Finds the layer at a height, on the CPU and in the shader. The shader starts from the bottom of one of many equal cells, whose layers
- * are known, since WebGL in software looks up a texel in about the time of all else that it does for a pixel. A test runs its search
+ * Finds the layer at a height, on the CPU and in the shader. The shader divides the height into many equal cells with a known lowest layer,
+ * and searches from there: in software WebGL, one texel lookup takes about as long as the rest of a pixel. A test runs the shader's search
  * on the packed texture.
  */
 
 /** Texels per row of the texture of boundaries. Every WebGL 2 supports this width; 1024 rows hold a third of a million layers. */
 export const ROW = 1024;
 
-/** Cells per layer: few hold more than one boundary, however uneven the layers are. */
+/** Cells per layer: few contain more than one boundary, however uneven the layers are. */
 export const CELLS = 2;
 
-/** What no rounding of a height in cells exceeds, in single precision. */
+/** Upper bound of the single-precision rounding error of a height, in cells. */
 const SLACK_CELLS = 0.1;
 
 /** The layer whose range [bottom, top) contains the height; the first layer below all ranges, the last above. */
@@ -25,11 +25,11 @@ export function layerAt(boundaries_mm: ArrayLike<number>, z_mm: number): number 
   return low;
 }
 
-/** Rows of a texture that holds `count` boundaries and the cells. */
+/** Number of texture rows for `count` boundaries and the cells. */
 export const rowsFor = (count: number): number => Math.max(1, Math.ceil(((1 + CELLS) * count) / ROW));
 
 /**
- * Writes the boundaries into `into`, which holds whole rows, and after them the layer at the bottom of each cell.
+ * Writes the boundaries to `into`, which has whole rows, followed by the lowest layer of each cell.
  *
  * @returns cells per millimetre
  */

@@ -1,18 +1,18 @@
-/** Boxes that mark a place on each copy of a model; seen through it, too. */
+/** Boxes that mark a place on each copy of a model; also visible through the model. */
 import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial } from "three";
 import type { Triple } from "./pose.js";
 
-/** A place to show, in the frame of the model as it stands: centred on x = y = 0, with the plate at z = 0. Lengths in mm. */
+/** A place to mark, in the frame of the posed model: centred on x = y = 0, with the plate at z = 0. Lengths in mm. */
 export interface Mark {
   readonly at_mm: Triple;
-  /** Its smallest and largest corner. */
+  /** Minimum and maximum corner. */
   readonly bounds_mm: readonly [Triple, Triple];
 }
 
-/** In no palette of layers as a whole, and seen on each. */
+/** In no layer palette, and visible on all of them. */
 export const MARK_COLOUR = 0xff9f1a;
 
-/** The least side of a box, as a part of the model's longest: smaller ones would not be seen. */
+/** Minimum side of a box, as a fraction of the model's longest side; smaller ones would be invisible. */
 const LEAST = 0.01;
 
 export function middleOf({ bounds_mm: [low, high] }: Mark): Triple {
@@ -26,7 +26,7 @@ export class Marker {
   readonly #fill = new MeshBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: 0.25, depthTest: false, depthWrite: false });
   readonly #lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, depthTest: false, depthWrite: false });
 
-  /** Diagonal of each box, mm: marks are copies of one. */
+  /** Diagonal of each box, mm; all marks are copies of one. */
   get diagonal_mm(): number {
     return this.group.children[0]?.scale.length() ?? 0;
   }
@@ -36,7 +36,7 @@ export class Marker {
     const boxes = marks.map((mark) => {
       const [low, high] = mark.bounds_mm;
       const [fill, lines] = [new Mesh(this.#box, this.#fill), new LineSegments(this.#edges, this.#lines)];
-      // After the model, which it shines through.
+      // After the model, through which it is visible.
       fill.renderOrder = 10;
       lines.renderOrder = 11;
       const box = new Group().add(fill, lines);

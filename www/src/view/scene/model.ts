@@ -28,12 +28,12 @@ import { WallColours } from "../walls/colours.js";
 import type { Walls } from "../walls/thickness.js";
 
 /**
- * `printed` is the stair steps in plain resin, `distance` the same coloured by their distance from the model; `weights` is the
- * heat map of the facets' weights, `walls` that of how thick the solid is.
+ * `printed`: the stair steps in plain resin; `distance`: the stair steps coloured by their distance from the model; `weights`: heat map of
+ * the facets' weights; `walls`: heat map of the wall thickness.
  */
 export type Look = "thickness" | "printed" | "distance" | "weights" | "walls";
 
-/** The band while no layer is selected: it contains no height. */
+/** Band while no layer is selected; contains no height. */
 const NO_BAND: readonly [number, number] = [0, -1];
 
 function boundariesTexture(rows: number): DataTexture {
@@ -56,36 +56,36 @@ function heatTexture(rows: number): DataTexture {
   return texture;
 }
 
-/** Sets bounds, so that three.js does not go through all the points again to compute them. */
+/** Sets infinite bounds, which saves three.js a pass over all points. */
 function bounded(geometry: BufferGeometry): BufferGeometry {
   geometry.boundingSphere = new Sphere(new Vector3(), Infinity);
   return geometry;
 }
 
-/** The colour of supports, which no scale has. */
+/** Colour of supports, which is in no scale. */
 const SUPPORT_RESIN = [0.52, 0.58, 0.68] as const;
 
-/** That of the void, seen through the model. */
+/** Colour of the void, seen through the model. */
 const VOID_COLOUR = [0.36, 0.62, 0.75] as const;
 
-/** How much of the model is left where the void is seen through it. */
+/** Opacity of the model while the void is seen through it. */
 const SEE_THROUGH = 0.32;
 
 export class Model {
-  /** Stands where the selected copy does: in the middle, if it is alone. */
+  /** Position of the selected copy: the middle, if it is the only one. */
   readonly stand = new Group();
-  /** Turns about the middle of the model; the gizmo is attached to it. */
+  /** Turns about the model's centre; the gizmo is attached to it. */
   readonly pivot = new Group();
   readonly facets: Mesh<BufferGeometry, RawShaderMaterial>;
-  /** The stair steps, already in their pose. */
+  /** The stair steps, already posed. */
   readonly steps = new Group();
-  /** The supports, already in their pose. */
+  /** The supports, already posed. */
   readonly supports: Mesh<BufferGeometry, RawShaderMaterial>;
-  /** The walls of the void, likewise. */
+  /** The walls of the void, already posed. */
   readonly voids: Mesh<BufferGeometry, RawShaderMaterial>;
-  /** How far the model is above the plate, mm. Takes effect with the next pose. */
+  /** Lift of the model above the plate, mm. Takes effect with the next pose. */
   lift_mm = 0;
-  /** Size of the posed model with what is below it, mm. */
+  /** Size of the posed model including the lift below it, mm. */
   size_mm: Triple = [0, 0, 0];
   #positions: Float32Array = new Float32Array(0);
   #points: Float32Array = this.#positions;
@@ -96,7 +96,7 @@ export class Model {
   #heat = heatTexture(1);
   /** True if the GPU has the heat of every facet, so that only changes need uploading. */
   #hasHeat = false;
-  /** Rows of the texture that have changed since. */
+  /** Texture rows that have changed since. */
   readonly #stale = new Set<number>();
   #look: Look = "thickness";
   #hasSteps = false;
@@ -107,7 +107,7 @@ export class Model {
   readonly wallColours = new WallColours();
   #isSeenThrough = false;
   readonly #material: RawShaderMaterial;
-  /** Draws only the depth of the facets, so that of a model that is seen through only the nearest ones are. */
+  /** Depth pass, which limits a transparent model to its nearest facets. */
   readonly #depth: Mesh<BufferGeometry, RawShaderMaterial>;
 
   constructor() {
@@ -142,7 +142,7 @@ export class Model {
     this.supports = body(SUPPORT_RESIN);
     this.voids = body(VOID_COLOUR);
     const depth = { glslVersion: GLSL3, vertexShader: PICK_VERTEX, fragmentShader: PICK_FRAGMENT, side: DoubleSide, colorWrite: false } as const;
-    // With what is transparent: after the void, and before the facets. A little behind them: it must never hide them.
+    // Drawn among transparent objects, after the void and before the facets; offset slightly behind the facets, so as never to hide them.
     const behind = { transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 } as const;
     this.#depth = new Mesh(this.facets.geometry, new RawShaderMaterial({ ...depth, ...behind }));
     this.#depth.renderOrder = 5;
@@ -167,7 +167,7 @@ export class Model {
     return this.pivot.scale.x || 1;
   }
 
-  /** @param positions nine numbers a facet, mm, in the file's pose */
+  /** @param positions nine numbers per facet, mm, in the file's pose */
   setPositions(positions: Float32Array, rotation: Rotation, scale: number): void {
     this.#positions = positions;
     this.#points = positions;
@@ -177,7 +177,7 @@ export class Model {
     this.#depth.geometry = this.facets.geometry;
     this.setSteps(null);
     const { least, greatest } = this.setPose(rotation, scale);
-    // From now on the model turns about the middle of these bounds.
+    // The model turns about the centre of these bounds from now on.
     this.#middle
       .set(...least)
       .add(new Vector3(...greatest))
@@ -187,12 +187,12 @@ export class Model {
     this.pivot.position.set(0, 0, (this.size_mm[2] + this.lift_mm) / 2);
   }
 
-  /** Sets the same points without duplicates, to save time in `setPose`. */
+  /** Sets the same points without duplicates, to speed up `setPose`. */
   setPoints(points: Float32Array): void {
     this.#points = points;
   }
 
-  /** Returns the bounds before the model is put on the plate. Cost: linear in its points. */
+  /** Returns the bounds before the model is placed on the plate. Cost: linear in its points. */
   setPose(rotation: Rotation, scale: number): Extent {
     const extent = extentOf(this.#points, rotation, scale);
     this.pivot.quaternion.set(...rotation);
@@ -209,12 +209,12 @@ export class Model {
     return extent;
   }
 
-  /** @param positions nine numbers a facet, mm from the plate; null: none */
+  /** @param positions nine numbers per facet, mm, z from the plate; null: none */
   setSupports(positions: Float32Array | null): void {
     this.supports.visible = replaced(this.supports, positions);
   }
 
-  /** The same for the walls of its void, which are seen while the model is seen through. */
+  /** Sets the walls of the void, likewise; visible while the model is transparent. */
   setVoids(positions: Float32Array | null): void {
     this.#hasVoids = replaced(this.voids, positions);
     this.#show();
@@ -226,7 +226,7 @@ export class Model {
     this.#show();
   }
 
-  /** Colours by the layers between these boundaries; fewer than two boundaries leave the model plain. */
+  /** Colours by the layers between these boundaries; with fewer than two boundaries, the model is plain. */
   setPlan(z_mm: readonly number[]): void {
     const rows = rowsFor(z_mm.length);
     if (rows !== this.#boundaries.image.height) {
@@ -251,7 +251,7 @@ export class Model {
     this.#set("limits", new Vector2(...limits));
   }
 
-  /** Updates the heat map: of all facets, or of `facets` only. */
+  /** Updates the heat map of all facets, or only of `facets`. */
   setHeat(source: HeatSource, facets: Iterable<number> | null): void {
     const count = this.#positions.length / 9;
     const rows = Math.max(1, Math.ceil(count / HEAT_ROW_FACETS));
@@ -279,7 +279,7 @@ export class Model {
     this.#set("resin", new Vector3(...colour).divideScalar(255));
   }
 
-  /** Marks the heights between two boundaries, mm; `null`: none. */
+  /** Marks the heights between two boundaries, mm; null: none. */
   setBand(band: readonly [number, number] | null): void {
     this.#set("band", new Vector2(...(band ?? NO_BAND)));
   }
@@ -308,7 +308,7 @@ export class Model {
     }
     this.#hasSteps = steps !== null;
     this.#hasDistances = measured !== null;
-    // Where all steps are on the model, any scale gives them the colour of zero.
+    // If no step deviates from the model, any scale gives all the colour of zero.
     this.#set("greatest", measured?.greatest_mm || 1);
     this.#show();
   }
@@ -339,7 +339,7 @@ export class Model {
     if (found !== undefined) found.value = value;
   }
 
-  /** Until the steps are computed, the facets are shown instead, in the same resin. */
+  /** Shows the facets in the same resin until the steps are computed. */
   #show(): void {
     const asSteps = (this.#look === "printed" || this.#look === "distance") && this.#hasSteps;
     this.steps.visible = asSteps;
@@ -355,7 +355,7 @@ export class Model {
     else this.#define(null);
   }
 
-  /** Has the shader show something else than layers or resin. three.js keeps the programs of both. */
+  /** Switches the shader away from layers and resin. three.js caches the program of each variant. */
   #define(name: "BY_HEAT" | "BY_DISTANCE" | "BY_WALLS" | null): void {
     const defines: Record<string, boolean> = name === null ? {} : { [name]: true };
     if (String(Object.keys(defines)) === String(Object.keys(this.#material.defines))) return;
@@ -364,7 +364,7 @@ export class Model {
   }
 }
 
-/** Gives a body other facets; returns whether it has any. */
+/** Replaces the facets of a body; returns true if it has any. */
 function replaced(body: Mesh, positions: Float32Array | null): boolean {
   body.geometry.dispose();
   body.geometry = bounded(new BufferGeometry());

@@ -5,24 +5,24 @@ import { watchDrags, type Drags } from "./drags.js";
 import type { Point } from "./pointer.js";
 import type { Scene } from "./scene.js";
 
-/** A copy was moved. */
+/** Movement of a copy. */
 export interface MoveDetail {
-  /** The copy's place among all. */
+  /** Index of the copy. */
   readonly place: number;
   readonly x_mm: number;
   readonly y_mm: number;
   readonly turn_deg: number;
-  /** False while it is still being moved. */
+  /** False during the movement. */
   readonly final: boolean;
 }
 
 export interface MovingReports {
-  /** A copy was pressed. */
+  /** Called when a copy was pressed. */
   selected(place: number): void;
   moved(detail: MoveDetail): void;
 }
 
-/** Places are rounded to this, in millimetres. */
+/** Rounding of positions, mm. */
 const STEP_MM = 0.05;
 
 const GROUND = new Plane(new Vector3(0, 0, 1), 0);
@@ -31,7 +31,7 @@ const rounded = (mm: number): number => Math.round(mm / STEP_MM) * STEP_MM;
 
 interface Drag {
   readonly place: number;
-  /** From the point that was grasped to the copy's middle, at the height of that point. */
+  /** Offset from the grasped point to the copy's centre, at the height of that point. */
   readonly grasp: Vector3;
   readonly plane: Plane;
   hasMoved: boolean;
@@ -49,7 +49,7 @@ export class Moving {
     this.#reports = reports;
   }
 
-  /** Takes drags that begin on a copy. */
+  /** Handles drags that begin on a copy. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
     const drags: Drags = {
       begin: (at) => this.isOn && this.#begin(at),
@@ -108,7 +108,7 @@ export class Moving {
   }
 }
 
-/** The nearest copy whose box a ray meets, and where. */
+/** Nearest copy whose bounding box a ray meets, with the intersection. */
 export function hitBy(ray: Ray, copies: readonly Copy[], sizeOf: (copy: Copy) => readonly [number, number, number]): { copy: Copy; point: Vector3 } | null {
   let nearest: { copy: Copy; point: Vector3 } | null = null;
   for (const copy of copies) {

@@ -1,9 +1,9 @@
 /**
- * Draws offscreen and shows the picture when it is finished.
+ * Draws offscreen and shows the picture once it is finished.
  *
- * Without a GPU, the browser copies the canvas for every frame of the page, and the page freezes until the software
- * renderer has drawn it: seconds for a million facets. With offscreen drawing the page stays responsive, and the canvas
- * keeps its previous picture until the new one is ready.
+ * Without a GPU, the browser copies the canvas in every frame of the page, and the page freezes until the software renderer has drawn it:
+ * seconds for a million facets. With offscreen drawing, the page stays responsive, and the canvas keeps its previous picture until the new
+ * one is ready.
  */
 import {
   GLSL3,
@@ -36,17 +36,17 @@ void main() {
   colour = texelFetch(picture, ivec2(gl_FragCoord.xy), 0);
 }`;
 
-/** A target for which three.js encodes colours as for a canvas; in other targets it leaves them linear. */
+/** A target for which three.js encodes colours as for a canvas; in other targets, it leaves them linear. */
 class CanvasLike extends WebGLRenderTarget {
   readonly isXRRenderTarget = true;
 }
 
 export interface OffscreenReports {
-  /** The canvas must get the picture's size now. */
+  /** Called when the canvas must take the picture's size. */
   fit(): void;
-  /** The picture is on the canvas. */
+  /** Called when the picture is on the canvas. */
   shown(): void;
-  /** The next picture may be drawn. */
+  /** Called when the next picture may be drawn. */
   free(): void;
 }
 
@@ -91,7 +91,7 @@ export class Offscreen {
     return this.#isBusy;
   }
 
-  /** Draws a picture of so many pixels. Must not be called while busy. */
+  /** Draws a picture of this size in pixels. Must not be called while busy. */
   draw(scene: Scene, camera: Camera, [width, height]: readonly [number, number], { fit, shown, free }: OffscreenReports): void {
     const gl = this.#renderer.getContext() as WebGL2RenderingContext;
     this.#target.setSize(width, height);

@@ -1,4 +1,4 @@
-/** Picks the facet under a pixel: renders that pixel alone, with facet numbers as colours. */
+/** Picks the facet under a pixel by rendering only that pixel, with facet numbers as colours. */
 import {
   DoubleSide,
   GLSL3,
@@ -43,7 +43,7 @@ export class Picker {
     this.#scene.add(this.#mesh);
   }
 
-  /** The facet of `model` under the pixel (x, y) of a view of `width` by `height` pixels, y downwards; or `null`. */
+  /** The facet of `model` under the pixel (x, y) of a view of `width` by `height` pixels, y downwards; or null. */
   async pick(
     renderer: WebGLRenderer,
     camera: PerspectiveCamera | OrthographicCamera,
@@ -70,7 +70,7 @@ export class Picker {
     const [a, b, c] = [0, 1, 2].map((i) =>
       new Vector3().fromBufferAttribute(positions, 3 * facet + i).applyMatrix4(matrix),
     ) as [Vector3, Vector3, Vector3];
-    // Intersect the plane, not the triangle: at an edge, the centre of the pixel may lie just outside the triangle.
+    // Intersects the plane, not the triangle: at an edge, the centre of the pixel may lie just outside the triangle.
     const at = ray.intersectPlane(new Plane().setFromCoplanarPoints(a, b, c), new Vector3());
     const z = at?.z ?? (a.z + b.z + c.z) / 3;
     const [lowest, highest] = [Math.min(a.z, b.z, c.z), Math.max(a.z, b.z, c.z)];

@@ -1,4 +1,4 @@
-/** Apart from the keys, since the page asks this before it has the view. */
+/** Separate from the keys, since the page needs it before the view is loaded. */
 import type { Tool } from "./keys.js";
 
 /** Returns true if the tool places points. */

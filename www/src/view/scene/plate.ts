@@ -22,31 +22,31 @@ import type { Rgb } from "../legend/palette.js";
 import type { Triple } from "./pose.js";
 import { BLUR_FRAGMENT, BLUR_VERTEX, PLATE_FRAGMENT, PLATE_VERTEX, SHADOW_FRAGMENT, SHADOW_VERTEX } from "./shaders.js";
 
-/** The space in which a printer builds. */
+/** Build volume of a printer. */
 export interface BuildVolume {
   readonly width_mm: number;
   readonly depth_mm: number;
   readonly height_mm: number;
 }
 
-/** Side of the shadow's texture, pixels: it is blurred, so it needs no detail. */
+/** Side of the shadow's texture, pixels; it is blurred and needs no detail. */
 const SHADOW_PIXELS = 256;
 
-/** Side of that texture as a multiple of the model's width or depth: leaves room for the blur. */
+/** Side of that texture as a multiple of the model's width or depth, with room for the blur. */
 const SHADOW_ROOM = 1.6;
 
-/** Height up to which the model casts a shadow, as a fraction of its largest side. */
+/** Maximum height from which the model casts a shadow, as a fraction of its longest side. */
 const SHADOW_REACH = 0.4;
 
-/** Side of the plate without a printer, as a multiple of the model's largest side. */
+/** Side of the plate without a printer, as a multiple of the model's longest side. */
 const PLATE_ROOM = 3.2;
 
-/** Wanted number of grid lines across the model; the spacing is rounded to a power of ten, mm. */
+/** Target number of grid lines across the model; the spacing is rounded to a power of ten, mm. */
 const LINES_ACROSS = 4;
 
 export class Plate {
   readonly group = new Group();
-  /** Spacing of the thin grid lines. */
+  /** Spacing of the thin grid lines, mm. */
   step_mm = 10;
   readonly #ground: Mesh<PlaneGeometry, RawShaderMaterial>;
   readonly #edges: LineSegments<EdgesGeometry, LineBasicMaterial>;
@@ -106,7 +106,7 @@ export class Plate {
       }),
     );
     this.#blur.frustumCulled = false;
-    // Drawn after the model, so that the model hides what is behind it.
+    // Drawn after the model, which hides the parts behind it.
     this.#ground.renderOrder = 1;
     this.#edges = new LineSegments(
       new EdgesGeometry(new BoxGeometry(1, 1, 1).translate(0, 0, 0.5)),
@@ -133,7 +133,7 @@ export class Plate {
     this.#colourEdges();
   }
 
-  /** Fits the plate to a model of this size, mm, and to the printer, if one is given. */
+  /** Fits the plate to a model of this size, mm, and to the printer, if any. */
   fit(size_mm: Triple, volume: BuildVolume | null): void {
     const [x, y, z] = size_mm;
     const span = Math.max(x, y, z, 1e-3);
@@ -150,7 +150,7 @@ export class Plate {
     this.#colourEdges();
     const half = (SHADOW_ROOM * Math.max(x, y, 1e-3)) / 2;
     this.#set("shadowHalf_mm", half);
-    // Seen from below, the picture is mirrored; swapping left and right undoes that.
+    // From below, the picture is mirrored; swapping left and right undoes that.
     Object.assign(this.#below, { left: half, right: -half, top: half, bottom: -half, near: -0.01 * span, far: span });
     this.#below.updateProjectionMatrix();
     const reach = this.#shade.uniforms["reach"];
@@ -158,7 +158,7 @@ export class Plate {
     this.#stale = true;
   }
 
-  /** Whether all copies can stay where they are, and whether the model casts a shadow: that of one model would not be all. */
+  /** Sets whether all placements are valid, and whether the model casts a shadow, which would be incomplete with several copies. */
   setPlated(isGood: boolean, hasShadow: boolean): void {
     this.#fits &&= isGood;
     this.#colourEdges();
@@ -178,7 +178,7 @@ export class Plate {
     renderer.setRenderTarget(null);
   }
 
-  /** To be called when a lost context is restored: the shadow is gone. */
+  /** Must be called when a lost context is restored, which loses the shadow. */
   restored(): void {
     this.#stale = true;
   }

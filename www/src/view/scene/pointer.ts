@@ -1,14 +1,14 @@
-/** Clicks and hovers over the view, told apart from drags. */
+/** Clicks and hovers over the view, as distinct from drags. */
 
-/** A pointer that moves farther than this while it is down is dragging, CSS pixels. */
+/** A pointer that moves farther than this while pressed is dragging, CSS pixels. */
 export const DRAG_FROM_PX = 4;
 
 export type Point = readonly [x_px: number, y_px: number];
 
 export interface PointerReports {
-  /** A press and release in one place with the main button. */
+  /** Called on a press and release in one place with the main button. */
   clicked(at: Point): void;
-  /** Where the pointer is with no button down, at most once a frame; `null` when it has left. */
+  /** Called with the position of a pointer without a pressed button, at most once per frame; null when it has left. */
   hovered(at: Point | null): void;
 }
 

@@ -7,7 +7,7 @@ import type { Triple } from "./pose.js";
 import type { Tool } from "./keys.js";
 import type { Scene } from "./scene.js";
 
-/** What the view shows now. */
+/** Current content of the view. */
 export interface Shown {
   readonly tool: Tool;
   readonly z_mm: readonly number[];
@@ -16,9 +16,9 @@ export interface Shown {
 
 export interface PointingReports {
   height(detail: HeightDetail): void;
-  /** A layer was clicked, counted from 0. */
+  /** Called when a layer was clicked, with its index from 0. */
   layer(layer: number): void;
-  /** A face was clicked to be laid on the plate; its normal is in the file's pose. */
+  /** Called when a face was clicked to be laid on the plate; its normal is in the file's pose. */
   lay(normal: Triple): void;
 }
 
@@ -50,7 +50,7 @@ export class Pointing {
     } else if (z_mm.length >= 2) this.#reports.layer(layerAt(z_mm, hit.z_mm));
   }
 
-  /** Picks once at a time, and again if the pointer has moved meanwhile. */
+  /** Runs one pick at a time, and another if the pointer has moved meanwhile. */
   async hovered(at: Point | null): Promise<void> {
     this.#pointer = at;
     if (this.#isPicking) return;

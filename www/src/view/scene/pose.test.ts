@@ -8,7 +8,7 @@ const close = (actual: readonly number[], wanted: readonly number[]): void => {
   for (const [i, value] of wanted.entries()) expect(actual[i]).toBeCloseTo(value, 5);
 };
 
-/** The directions of the axes and of the diagonals between them. */
+/** Directions of the axes and of the diagonals between them. */
 function* directions(): Generator<Triple> {
   for (const x of [-1, 0, 1]) for (const y of [-1, 0, 1]) for (const z of [-1, 0, 1]) {
     const length = Math.hypot(x, y, z);

@@ -1,20 +1,20 @@
-/** How a model stands on the plate: turned by a unit quaternion, centred, its lowest point at z = 0. */
+/** Pose of a model on the plate: rotated by a unit quaternion, centred, its lowest point at z = 0. */
 import { Quaternion, Vector3 } from "three";
 
 export { UPRIGHT } from "./turn.js";
 
-/** A unit quaternion [x, y, z, w] that turns the model before it is put on the plate. */
+/** Unit quaternion [x, y, z, w] that rotates the model before it is placed on the plate. */
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
 export type Triple = readonly [x: number, y: number, z: number];
 
-/** Bounds of the turned and scaled model, mm, before it is put on the plate. */
+/** Bounds of the rotated and scaled model, mm, before it is placed on the plate. */
 export interface Extent {
   readonly least: Triple;
   readonly greatest: Triple;
 }
 
-/** The nine entries of the rotation matrix times `scale`, row by row. */
+/** Nine entries of the rotation matrix times `scale`, row by row. */
 function matrixOf([x, y, z, w]: Rotation, scale: number): readonly number[] {
   return [
     1 - 2 * (y * y + z * z),
@@ -29,13 +29,13 @@ function matrixOf([x, y, z, w]: Rotation, scale: number): readonly number[] {
   ].map((entry) => entry * scale);
 }
 
-/** Bounds of `points` (three numbers each, mm) once turned and scaled. One pass; no points give zeros. */
+/** Bounds of `points` (three numbers each, mm) once rotated and scaled. One pass; zeros without points. */
 export function extentOf(points: Float32Array, rotation: Rotation, scale: number): Extent {
   if (points.length < 3) return { least: [0, 0, 0], greatest: [0, 0, 0] };
   const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = matrixOf(rotation, scale);
   let [x0, y0, z0] = [Infinity, Infinity, Infinity];
   let [x1, y1, z1] = [-Infinity, -Infinity, -Infinity];
-  // Runs millions of times: no destructuring of arrays in here.
+  // Runs millions of times, so it does not destructure arrays.
   for (let at = 0; at + 2 < points.length; at += 3) {
     const x = points[at] ?? 0;
     const y = points[at + 1] ?? 0;
@@ -53,7 +53,7 @@ export function extentOf(points: Float32Array, rotation: Rotation, scale: number
   return { least: [x0, y0, z0], greatest: [x1, y1, z1] };
 }
 
-/** The offset that puts the turned and scaled points in the middle of the plate. */
+/** Offset that moves the rotated and scaled points to the middle of the plate. */
 export function standing({ least, greatest }: Extent): Triple {
   return [-(least[0] + greatest[0]) / 2, -(least[1] + greatest[1]) / 2, -least[2]];
 }
@@ -64,7 +64,7 @@ export const sizeOf = ({ least, greatest }: Extent): Triple => [
   greatest[2] - least[2],
 ];
 
-/** The points turned, scaled and put on the plate. */
+/** The points rotated, scaled and placed on the plate. */
 export function posed(points: Float32Array, rotation: Rotation, scale: number): Float32Array {
   const [a = 0, b = 0, c = 0, d = 0, e = 0, f = 0, g = 0, h = 0, i = 0] = matrixOf(rotation, scale);
   const [ox, oy, oz] = standing(extentOf(points, rotation, scale));

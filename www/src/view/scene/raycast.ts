@@ -1,4 +1,4 @@
-/** Finds where a ray hits a model and which of its points is nearest, using a bounding volume hierarchy. */
+/** Ray hits and nearest points of a model, using a bounding volume hierarchy. */
 import { BufferAttribute, BufferGeometry, DoubleSide, Ray, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Triple } from "./pose.js";
@@ -13,20 +13,20 @@ const tripleOf = ({ x, y, z }: Vector3): Triple => [x, y, z];
 export class Raycast {
   readonly #tree: MeshBVH;
 
-  /** @param positions nine numbers a facet, mm; at least one facet. Takes about a microsecond a facet. */
+  /** @param positions nine numbers per facet, mm; at least one facet. Takes about a microsecond per facet. */
   constructor(positions: Float32Array) {
     const geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
-    // Facets keep their numbers.
+    // Keeps the order of facets.
     this.#tree = new MeshBVH(geometry, { indirect: true });
   }
 
-  /** The first hit of a ray on either side of a facet; `null` if it misses. */
+  /** First hit of a ray on either side of a facet; null if it misses. */
   cast(ray: Ray): RayHit | null {
     const hit = this.#tree.raycastFirst(ray, DoubleSide);
     return hit === null || hit.faceIndex == null ? null : { facet: hit.faceIndex, point: tripleOf(hit.point) };
   }
 
-  /** The point of the model nearest to `point`; `null` if it is farther away than `within_mm`. */
+  /** Point of the model nearest to `point`; null if it is farther away than `within_mm`. */
   nearest(point: Triple, within_mm: number): RayHit | null {
     const found = this.#tree.closestPointToPoint(new Vector3(...point), undefined, 0, within_mm);
     return found === null ? null : { facet: found.faceIndex, point: tripleOf(found.point) };

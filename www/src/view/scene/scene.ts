@@ -1,4 +1,4 @@
-/** The view's scene on its canvas. Draws only when something has changed. */
+/** The view's scene on its canvas. Draws only on changes. */
 import {
   BufferAttribute,
   BufferGeometry,
@@ -30,10 +30,10 @@ import { Plate, type BuildVolume } from "./plate.js";
 import type { Rotation, Triple } from "./pose.js";
 import type { Viewpoint } from "./viewpoint.js";
 
-/** Highest pixel ratio that is drawn: twice as many pixels each way would cost four times as much, unseen. */
+/** Maximum pixel ratio for drawing: doubling it costs four times as many pixels with no visible gain. */
 const DENSITY_LIMIT = 2;
 
-/** From this many facets on, a software renderer would block the page too long: draw offscreen. */
+/** From this many facets on, a software renderer would block the page for too long, so drawing is offscreen. */
 const LARGE_FACETS = 50_000;
 
 export interface Theme {
@@ -50,11 +50,11 @@ export interface Theme {
 }
 
 export interface SceneReports extends Omit<GizmoReports, "changed"> {
-  /** A frame has been drawn. */
+  /** Called when a frame has been drawn. */
   drawn(frame: Frame | null): void;
   /**
-   * Where heights belong; null: nowhere, in perspective. Asked before every frame, since it depends on the page's layout:
-   * remembered from an earlier one, it would be wrong after a change of layout, for a frame at least.
+   * Positions at which heights belong; null: none, in perspective. Queried before every frame, since it depends on the page's layout: a
+   * cached value would be wrong for at least a frame after a change of layout.
    */
   alignment(): Alignment | null;
 }
@@ -64,7 +64,7 @@ export class Scene {
   readonly cameras: Cameras;
   readonly plate: Plate;
   readonly copies: Copies;
-  /** The points on the model. */
+  /** Markers of the points on the model. */
   readonly markers = new Markers();
   readonly #marker = new Marker();
   readonly #renderer: WebGLRenderer;
@@ -87,21 +87,21 @@ export class Scene {
   #isAligned = false;
   /** Size of the view, CSS pixels. */
   #size: readonly [number, number] = [0, 0];
-  /** Size of the canvas, which follows that of the view when a picture of that size is there. */
+  /** Size of the canvas, which follows that of the view once a picture of that size is ready. */
   #fitted: readonly [number, number] = [0, 0];
   #asked = 0;
-  /** True if the browser has yet to fetch what is on the canvas, or the empty canvas. */
+  /** True until the browser has fetched the canvas's content, or the empty canvas. */
   #isUnfetched = true;
-  /** True if something has changed since the offscreen picture under way was started. */
+  /** True if something has changed since the start of the current offscreen picture. */
   #isStale = false;
   #isGone = false;
   #tool: Tool = "turn";
   #volume: BuildVolume | null = null;
-  /** All copies on the plate; none if the model is alone. */
+  /** All copies on the plate; empty for a single model. */
   #copied: readonly Copy[] = [];
   #isCrowded = false;
 
-  /** @param context of the canvas, with alpha */
+  /** @param context WebGL context of the canvas, with alpha */
   constructor(
     canvas: HTMLCanvasElement,
     context: WebGL2RenderingContext,
@@ -130,12 +130,12 @@ export class Scene {
     canvas.addEventListener("webglcontextrestored", this.#restored);
   }
 
-  /** Requests a frame; several requests before it is drawn count as one. */
+  /** Requests a frame; requests before it is drawn are merged. */
   readonly invalidate = (): void => {
     if (this.#asked === 0 && !this.#isGone) this.#asked = requestAnimationFrame(this.#frame);
   };
 
-  /** Returns true if a GPU draws: see `contextOf`. */
+  /** Returns true if a GPU draws; see `contextOf`. */
   get isSmooth(): boolean {
     return this.#renderer.getContext().getContextAttributes()?.antialias === true;
   }
@@ -152,7 +152,7 @@ export class Scene {
     this.drawNow();
   }
 
-  /** Draws before the browser paints, where the layout has changed after the frame was drawn. */
+  /** Draws before the browser paints, if the layout has changed after the frame was drawn. */
   drawNow(): void {
     this.#draw();
   }
@@ -162,14 +162,12 @@ export class Scene {
     this.model.setPositions(positions, rotation, scale);
     this.setFace(null);
     this.#fitPlate();
-    // Where several models stand, the camera has them all in view already.
+    // With several models, the camera already shows all of them.
     if (this.#copied.length === 0) this.cameras.reset(this.model.size_mm);
     this.invalidate();
   }
 
-  /**
-   * Sets the copies on the plate; the model is the one at `selected`. Without copies it is alone in the middle.
-   */
+  /** Sets the copies on the plate; the model is the one at `selected`. Without copies, the model is alone in the middle. */
   setCopies(copies: readonly Copy[], selected: number | null): void {
     const count = this.#copied.length;
     this.#copied = copies;
@@ -184,7 +182,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Size of the model, or of all that stands on the plate. */
+  /** Size of the model, or of everything on the plate. */
   get #size_mm(): Triple {
     return this.#copied.length === 0 ? this.model.size_mm : sizeOfAll(this.#copied, (shape) => this.copies.sizeOf(shape));
   }
@@ -195,7 +193,7 @@ export class Scene {
     this.plate.setPlated(!this.#isCrowded, isAlone);
   }
 
-  /** @param follow whether the camera follows the model's middle */
+  /** @param follow true if the camera follows the model's centre */
   setPose(rotation: Rotation, scale: number, follow: boolean): void {
     this.model.setPose(rotation, scale);
     this.#fitPlate();
@@ -218,7 +216,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Takes the camera that the layout asks for. */
+  /** Activates the camera required by the layout. */
   align(): Alignment | null {
     const alignment = this.#reports.alignment();
     const isAligned = alignment !== null;
@@ -239,7 +237,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Marks places and turns the first to the viewer; none ends that, and brings the camera back unless it was moved since. */
+  /** Marks places and turns the first to the viewer. An empty list moves the camera back, unless the user has moved it since. */
   setMarks(marks: readonly Mark[], duration_ms: number): void {
     this.#marker.set(marks, this.model.size_mm);
     const isAligned = this.align() !== null;
@@ -249,7 +247,7 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Highlights these facets; `null`: none. */
+  /** Highlights these facets; null: none. */
   setFace(facets: readonly number[] | null): void {
     const { geometry } = this.#face;
     geometry.dispose();
@@ -264,29 +262,29 @@ export class Scene {
     this.invalidate();
   }
 
-  /** The facet and the height under a point of the view, CSS pixels. */
+  /** Facet and height under a point of the view, CSS pixels. */
   async pick(x_px: number, y_px: number): Promise<Hit | null> {
     this.cameras.current.updateMatrixWorld();
     return this.#picked(this.cameras.current, [x_px, y_px]);
   }
 
-  /** What a camera there would have in the middle of the view. */
+  /** Facet and height in the middle of the view from a viewpoint. */
   seenFrom(place: Viewpoint): Promise<Hit | null> {
     return this.#picked(this.cameras.tried(place), [this.#size[0] / 2, this.#size[1] / 2]);
   }
 
-  /** The ray through a point of the view, CSS pixels, in the file's pose. */
+  /** Ray through a point of the view, CSS pixels, in the file's pose. */
   rayAt(x_px: number, y_px: number): Ray {
     return this.inFile(this.worldRayAt(x_px, y_px));
   }
 
-  /** A ray on the plate, in the file's pose. */
+  /** Transforms a ray from the plate's frame to the file's pose. */
   inFile(ray: Ray): Ray {
     this.#scene.updateMatrixWorld();
     return ray.clone().applyMatrix4(this.model.facets.matrixWorld.clone().invert());
   }
 
-  /** The ray through a point of the view, CSS pixels, on the plate. */
+  /** Ray through a point of the view, CSS pixels, in the plate's frame. */
   worldRayAt(x_px: number, y_px: number): Ray {
     const [width, height] = this.#size;
     this.#scene.updateMatrixWorld();
@@ -296,7 +294,7 @@ export class Scene {
     return caster.ray;
   }
 
-  /** Where the right edge of the model's bounds is at a height, CSS pixels: the place of a label. */
+  /** Position of the right edge of the model's bounds at a height, CSS pixels, for a label. */
   edgeAt(z_mm: number): readonly [number, number] {
     const camera = this.cameras.current;
     const right = new Vector3().setFromMatrixColumn(camera.matrixWorld, 0);
@@ -322,7 +320,7 @@ export class Scene {
     this.#face.geometry.dispose();
     this.#face.material.dispose();
     this.#renderer.dispose();
-    // Browsers limit the contexts of a page and reclaim them late.
+    // Browsers limit the contexts per page and reclaim them late.
     this.#renderer.forceContextLoss();
   }
 
@@ -349,7 +347,7 @@ export class Scene {
     if (this.#isGone || this.#size[0] === 0 || this.#renderer.getContext().isContextLost()) return null;
     this.#scene.updateMatrixWorld();
     const hit = await this.#picker.pick(this.#renderer, camera, this.model.facets, at, this.#size).catch((error: unknown) => {
-      // A context that is lost meanwhile answers nothing.
+      // A context lost meanwhile does not answer.
       if (this.#renderer.getContext().isContextLost()) return null;
       throw error;
     });
@@ -371,9 +369,9 @@ export class Scene {
     const size = this.#size;
     const isLarge = this.model.positions.length >= 9 * LARGE_FACETS;
     if (isLarge && this.#isUnfetched) {
-      // An empty canvas takes its size at once, and with it the pointer.
+      // An empty canvas takes its size at once, to receive the pointer.
       if (this.#fitted[0] === 0) this.#fit(size);
-      // It would wait for the picture, and the page with it.
+      // Otherwise the browser would wait for the picture, and the page with it.
       if (this.#asked === 0) this.#asked = requestAnimationFrame(() => (this.#asked = requestAnimationFrame(this.#fetched)));
       return;
     }
@@ -394,8 +392,8 @@ export class Scene {
   }
 
   /**
-   * Gives the canvas the size of the picture that it is about to show. Setting the size clears it, so a picture must follow
-   * before the browser paints; until then the canvas keeps its old size, since a stretched picture would be wrong.
+   * Sets the canvas to the size of the picture about to be shown. That clears it, so a picture must follow before the browser paints; until
+   * then, the canvas keeps its old size, since a stretched picture would be wrong.
    */
   #fit(size: readonly [number, number]): void {
     const [width, height] = this.#fitted;

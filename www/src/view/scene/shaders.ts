@@ -1,4 +1,4 @@
-/** The shaders. Heights are world z, mm; colours are sRGB and lit in linear light. */
+/** Shaders. Heights are world z, mm; colours are sRGB and lit in linear light. */
 import { HEAT_GLSL } from "../paint/heat.js";
 import { LAYER_AT_GLSL } from "./lookup.js";
 import { PALETTE_SIZE } from "../legend/palette.js";
@@ -50,10 +50,10 @@ void main() {
 `;
 
 /**
- * Shows resin, or by layers: a pixel shows the mean thickness of those that it covers, as in the chart, so layers thinner than a pixel
- * blend instead of flickering, and the shader looks up only boundaries.
+ * Shows resin, or layers: a pixel has the mean thickness of the layers that it covers, as in the chart. Layers thinner than a pixel
+ * therefore blend instead of flickering, and the shader looks up only boundaries.
  *
- * With one of `BY_HEAT`, `BY_DISTANCE` and `BY_WALLS` defined it shows that instead. They are apart because WebGL in software runs every
+ * With `BY_HEAT`, `BY_DISTANCE` or `BY_WALLS` defined, it shows that instead. They are separate variants because software WebGL runs every
  * branch for every pixel.
  */
 export const MODEL_FRAGMENT = /* glsl */ `${HEAD}
@@ -172,7 +172,7 @@ void main() {
 }
 `;
 
-/** The facet under a pixel as its number plus one in four bytes; zero means no facet. */
+/** Facet under a pixel, as its number plus one in four bytes; zero means no facet. */
 export const PICK_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 flat out uint facet;
 void main() {
@@ -189,7 +189,7 @@ void main() {
 }
 `;
 
-/** How close the model is to the plate, seen from below: the source of the shadow. */
+/** Closeness of the model to the plate, seen from below: the source of the shadow. */
 export const SHADOW_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 uniform float reach;
 out float near;

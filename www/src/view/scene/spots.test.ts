@@ -11,7 +11,7 @@ const layers = (height: number, thickness: number): number[] =>
 const spots = (positions: Float32Array, z_mm: readonly number[], towards: Triple): Spot[] =>
   finished(spotsOf(positions, z_mm, seen(towards)));
 
-/** The facets moved by so many mm along x. */
+/** The facets moved along x. */
 const moved = (positions: Float32Array, by_mm: number): Float32Array => positions.map((value, i) => (i % 3 === 0 ? value + by_mm : value));
 
 describe("the places with the largest steps", () => {

@@ -1,19 +1,19 @@
-/** Finds the places of a print where its stair steps are largest. */
+/** Finds the places with the largest stair steps of a print. */
 import { layerAt } from "./lookup.js";
 import { extentOf, sizeOf, UPRIGHT, type Triple } from "./pose.js";
 
 export interface Spot {
-  /** The facet whose middle the place is. */
+  /** The facet whose centre is the place. */
   readonly facet: number;
   /** In the file's pose, mm of the file. */
   readonly point: Triple;
-  /** Of the layer there, mm. */
+  /** Thickness of the layer there, mm. */
   readonly thickness_mm: number;
 }
 
-/** How the model stands and is seen. */
+/** Pose of the model, and the view of it. */
 export interface Seen {
-  /** Turns a point of the file into its height above the plate, mm: factors of x, y and z, and what is added. */
+  /** Coefficients of the height above the plate, mm: factors of x, y and z of the file, and the offset. */
   readonly height: readonly [x: number, y: number, z: number, offset: number];
   /** Direction to the viewer in the file's pose, a unit vector. */
   readonly towards: Triple;
@@ -22,24 +22,24 @@ export interface Seen {
 /** Facets between two yields. */
 const BLOCK = 4096;
 
-/** Cells of the grid along each axis: facets in one cell count together, so that no sliver decides. */
+/** Cells of the grid along each axis. Facets in one cell are summed, so that no sliver decides. */
 const CELLS = 24;
 
-/** Least cosine of the angle between a facet's normal and the direction to the viewer. */
+/** Minimum cosine of the angle between a facet's normal and the direction to the viewer. */
 const FACING = 0.25;
 
-/** Below this sine of the slope a facet is level: it has no steps to count. */
+/** Facets with a slope of a smaller sine are level and have no steps. */
 const LEVEL = 0.05;
 
-/** The width of a step counts up to this multiple of its height: wider ones are not easier to see. */
+/** The width of a step counts up to this multiple of its height; wider ones are no easier to see. */
 const WIDEST = 4;
 
-/** How many places to return. */
+/** Maximum number of places returned. */
 const MOST = 4;
 
 /**
- * The places where the widest steps (thickness over tangent of the slope) cover the largest area as seen by the viewer, best
- * first; none if all facets that face the viewer are level or upright. Yields its progress, 0 to 1.
+ * Places where the widest steps (thickness over tangent of the slope) cover the largest area as seen by the viewer, best first; empty if
+ * all facets that face the viewer are level or upright. Yields its progress, 0 to 1.
  *
  * Cost: linear in the facets, times the logarithm of the layers.
  */
@@ -61,7 +61,7 @@ export function* spotsOf(positions: Float32Array, z_mm: readonly number[], { hei
   for (let facet = 0; facet < facets; facet++) {
     if (facet % BLOCK === 0) yield facet / facets;
     const at = 9 * facet;
-    // Runs millions of times: no destructuring of arrays in here.
+    // Runs millions of times, so it does not destructure arrays.
     const x = value(at);
     const y = value(at + 1);
     const z = value(at + 2);

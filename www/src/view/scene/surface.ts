@@ -1,6 +1,6 @@
-/** The WebGL context of the canvas, and the placement of the label over it. */
+/** WebGL context of the canvas, and placement of the label over it. */
 
-/** Antialiasing quadruples the work, so the view does without it where a software renderer stands in for a GPU. */
+/** Antialiasing quadruples the work, so it is disabled if a software renderer replaces the GPU. */
 export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | null {
   const wanted = { alpha: true, depth: true, stencil: false };
   return (
@@ -9,10 +9,10 @@ export function contextOf(canvas: HTMLCanvasElement): WebGL2RenderingContext | n
   );
 }
 
-/** Gap between the label and the point that it names, CSS pixels. */
+/** Gap between the label and its point, CSS pixels. */
 const GAP_PX = 12;
 
-/** Puts a label to the right of a point, or in its corner of the view if there is no room. `null` hides it. */
+/** Places a label to the right of a point, or in its corner of the view if there is no room. Null hides it. */
 export function place(label: HTMLElement, at: readonly [x_px: number, y_px: number] | null, width_px: number): void {
   label.hidden = at === null;
   if (at === null) return;

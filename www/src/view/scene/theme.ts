@@ -2,7 +2,7 @@
 import type { Rgb } from "../legend/palette.js";
 import type { Theme } from "./scene.js";
 
-/** A dark page needs a stronger shadow, or it is lost, and a darker resin, or it glares. */
+/** On a dark page, the shadow must be stronger to be visible, and the resin darker to avoid glare. */
 const DARK: Pick<Theme, "resin" | "shadow"> = { resin: [168, 174, 184], shadow: 0.75 };
 const LIGHT: Pick<Theme, "resin" | "shadow"> = { resin: [205, 208, 214], shadow: 0.34 };
 

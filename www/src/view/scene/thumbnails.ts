@@ -1,4 +1,4 @@
-/** Offscreen pictures of a model in its first view: in several poses on the plate, or coloured by its layers. */
+/** Offscreen pictures of a model in its initial view: in several poses on the plate, or coloured by its layers. */
 import { Scene, WebGLRenderer } from "three";
 import { lookFirst, perspective } from "./cameras.js";
 import { Model } from "./model.js";
@@ -10,7 +10,7 @@ import { themeOf } from "./theme.js";
 
 const frame = (): Promise<unknown> => new Promise((resolve) => requestAnimationFrame(resolve));
 
-/** Gives `draw` an offscreen scene and disposes of it afterwards. `null` without WebGL. */
+/** Creates an offscreen scene for `draw` and disposes of it afterwards. Null without WebGL. */
 async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | null> {
   const canvas = document.createElement("canvas");
   const context = contextOf(canvas);
@@ -37,7 +37,7 @@ async function withScene<T>(draw: (studio: Studio) => Promise<T>): Promise<T | n
     plate.dispose();
     model.dispose();
     renderer.dispose();
-    // Browsers allow a page only so many contexts, and collect them late.
+    // Browsers limit the contexts per page and reclaim them late.
     renderer.forceContextLoss();
   }
 }
@@ -50,10 +50,10 @@ interface Studio {
 }
 
 /**
- * Draws the model on each canvas in the rotation paired with it, one per frame. Without WebGL the canvases stay empty.
+ * Draws the model on each canvas in its rotation, one per frame. Without WebGL, the canvases stay empty.
  *
- * @param positions nine numbers a facet, mm, in the file's pose
- * @param host element whose text colour the plate's lines take
+ * @param positions nine numbers per facet, mm, in the file's pose
+ * @param host element whose text colour is used for the plate's lines
  */
 export async function drawThumbnails(
   positions: Float32Array,
@@ -81,7 +81,7 @@ export async function drawThumbnails(
 
 /** A model and its layers. */
 export interface Layered {
-  /** Nine numbers a facet, mm, in the file's pose. */
+  /** Nine numbers per facet, mm, in the file's pose. */
   readonly positions: Float32Array;
   readonly rotation: Rotation;
   /** Factor applied to the file's lengths. */
@@ -93,7 +93,7 @@ export interface Layered {
   readonly palette: PaletteName;
 }
 
-/** A square PNG of a model coloured by layer thickness, on a transparent background; `null` without WebGL. */
+/** Square PNG of a model coloured by layer thickness, on a transparent background; null without WebGL. */
 export function thumbnail({ positions, rotation, scale, z_mm, limits, palette }: Layered, size_px: number): Promise<Blob | null> {
   return withScene(({ model, plate, shoot }) => {
     plate.group.visible = false;

@@ -1,14 +1,14 @@
-/** Finds which corners of a facet soup are the same point, and which facets share an edge. */
+/** Welds the corners of a facet soup, and finds the facets that share an edge. */
 
 /**
  * Half-edge `3 * facet + i` runs from corner `i` of the facet to the next one.
  */
 export interface Topology {
-  /** The distinct points, three numbers each, mm, in the file's pose. */
+  /** Distinct points, three numbers each, mm, in the file's pose. */
   readonly points: Float32Array;
-  /** The point of each corner. */
+  /** Index of the point at each corner. */
   readonly corner: Uint32Array;
-  /** The half-edge that runs the other way along the same edge, −1 where there is none. */
+  /** The half-edge in the opposite direction along the same edge; −1 if there is none. */
   readonly twin: Int32Array;
 }
 
@@ -57,8 +57,8 @@ function* weld(positions: Float32Array): Generator<number, Pick<Topology, "point
 }
 
 /**
- * Finds the twin of each half-edge. On an edge of more than two facets, half-edges are paired as far as possible.
- * Cost: the sum over all edges of the smaller number of facets at either end.
+ * Finds the twin of each half-edge. On an edge of more than two facets, half-edges are paired as far as possible. Cost: the sum over all
+ * edges of the smaller number of facets at either end.
  */
 function* pair(corner: Uint32Array, points: number): Generator<number, Int32Array> {
   const start = new Uint32Array(points + 1);
@@ -101,7 +101,7 @@ function* pair(corner: Uint32Array, points: number): Generator<number, Int32Arra
   return twin;
 }
 
-/** The topology of `positions` (nine numbers a facet, mm). Yields its progress, 0 to 1. */
+/** Topology of `positions` (nine numbers per facet, mm). Yields its progress, 0 to 1. */
 export function* topologyOf(positions: Float32Array): Generator<number, Topology> {
   const welding = weld(positions);
   let step = welding.next();

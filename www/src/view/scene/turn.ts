@@ -1,7 +1,7 @@
-/** Rotates vectors by unit quaternions, for what is drawn without three.js. */
+/** Rotates vectors by unit quaternions, for drawing without three.js. */
 import type { Rotation, Triple } from "./pose.js";
 
-/** The model as in its file. */
+/** Orientation of the file. */
 export const UPRIGHT: Rotation = [0, 0, 0, 1];
 
 /** The rotation by `first`, then by `second`. */
@@ -28,14 +28,14 @@ export function unit([x, y, z]: Triple): Triple {
   return [x / length, y / length, z / length];
 }
 
-/** The direction from which the model is first seen: the front, slightly from the right and above. */
+/** Initial viewing direction: from the front, slightly from the right and above. */
 export const FIRST_LOOK: Triple = unit([0.55, -1, 0.5]);
 
 const cross = ([ax, ay, az]: Triple, [bx, by, bz]: Triple): Triple => [ay * bz - az * by, az * bx - ax * bz, ax * by - ay * bx];
 
 /**
- * The rotation of a camera that looks at the model from there with z upwards: it turns the camera's right, up and
- * backward axes into the plate's frame. `from` must not be straight above or below.
+ * Rotation of a camera that looks at the model from there with z upwards: it turns the camera's right, up and backward axes into the
+ * plate's frame. `from` must not be vertical.
  */
 export function lookFrom(from: Triple): Rotation {
   const [zx, zy, zz] = unit(from);

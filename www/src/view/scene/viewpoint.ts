@@ -1,4 +1,4 @@
-/** Where a camera is and what it looks at, and the way from one such place to another. */
+/** Position and target of a camera, and interpolation between two viewpoints. */
 import type { Triple } from "./pose.js";
 
 export interface Viewpoint {
@@ -6,10 +6,10 @@ export interface Viewpoint {
   readonly target: Triple;
 }
 
-/** How long the camera takes from one place to another, ms. */
+/** Duration of a camera flight, ms. */
 export const FLIGHT_MS = 450;
 
-/** Starts and stops gently: 0 to 1. */
+/** Easing from 0 to 1 with a gentle start and stop. */
 export const eased = (part: number): number => (part < 0.5 ? 4 * part ** 3 : 1 - (2 - 2 * part) ** 3 / 2);
 
 const mix = (a: number, b: number, part: number): number => a + (b - a) * part;
@@ -22,8 +22,8 @@ function polar({ position, target }: Viewpoint): Triple {
 }
 
 /**
- * The place at `part` of the way, 0 to 1. The camera turns about z the shorter way. It approaches by equal factors in equal
- * times, and what it looks at moves as the distance does, so that both arrive together on the screen.
+ * Viewpoint at fraction `part` of the way, 0 to 1. The camera turns about z the shorter way. Its distance changes exponentially in time,
+ * and its target in proportion to the distance, so that both arrive together on the screen.
  */
 export function between(from: Viewpoint, to: Viewpoint, part: number): Viewpoint {
   const [r0, polar0, around0] = polar(from);
@@ -44,7 +44,7 @@ export function between(from: Viewpoint, to: Viewpoint, part: number): Viewpoint
   };
 }
 
-/** Returns true if two places are the same but for rounding. */
+/** Returns true if two viewpoints are equal up to rounding. */
 export function areSame(a: Viewpoint, b: Viewpoint): boolean {
   const near = 1e-4 * polar(a)[0];
   return [0, 1, 2].every(
