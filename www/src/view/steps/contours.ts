@@ -2,19 +2,19 @@
 import { after, type Topology } from "../scene/topology.js";
 
 /**
- * A closed polyline as x and y of its points, mm; the end joins the start. The inside of the model is on its left, so
- * outlines run counter-clockwise and holes clockwise.
+ * Closed polyline as x and y of its points, mm; the end joins the start. The inside of the model is on its left, so outlines run
+ * counter-clockwise and holes clockwise.
  */
 export type Contour = readonly number[];
 
-/** A model on the plate: its points in their pose, and how its facets are connected. */
+/** A model on the plate: its posed points, and its topology. */
 export interface Solid {
   /** Three numbers each, mm, z up from the plate. */
   readonly points: Float32Array;
   readonly topology: Pick<Topology, "corner" | "twin">;
 }
 
-/** The facets that each plane cuts, in one array, and where the range of each plane starts. */
+/** Facets cut by each plane, in one array, and the start of each plane's range. */
 export interface Cuts {
   readonly facets: Uint32Array;
   /** One entry more than there are planes. */
@@ -24,7 +24,7 @@ export interface Cuts {
 /** Facets between two yields. */
 const BLOCK = 8192;
 
-/** How many of the ascending `values` are less than `value`. */
+/** Number of the ascending `values` that are less than `value`. */
 function countBelow(values: readonly number[], value: number): number {
   let [low, high] = [0, values.length];
   while (low < high) {
@@ -36,15 +36,16 @@ function countBelow(values: readonly number[], value: number): number {
 }
 
 /**
- * Finds which facets each plane cuts. A point on a plane counts as below it, so a facet is cut by the planes from its lowest
- * point up to, but not including, its highest.
+ * Finds the facets that each plane cuts. A point on a plane counts as below it, so a facet is cut by the planes from its lowest point up
+ * to, but not including, its highest.
+ *
  * @param planes_mm heights, ascending
  */
 export function* cutsOf({ points, topology }: Solid, planes_mm: readonly number[]): Generator<number, Cuts> {
   const { corner } = topology;
   const count = corner.length / 3;
   const start = new Uint32Array(planes_mm.length + 1);
-  // The first plane of each facet and the one after its last: found once, used for counting and for filling.
+  // First plane of each facet and the one after its last, used for both counting and filling.
   const range = new Uint32Array(2 * count);
   for (let facet = 0; facet < count; facet++) {
     if (facet % BLOCK === 0) yield facet / count;
@@ -73,17 +74,16 @@ export function* cutsOf({ points, topology }: Solid, planes_mm: readonly number[
   return { facets, start };
 }
 
-/** Traces the contours of a plane, given the facets that it cuts; called for one plane after another. */
+/** Traces the contours of a plane, given the facets that it cuts. Must be called for one plane after another. */
 export type Tracer = (z_mm: number, facets: Uint32Array) => Contour[];
 
 /**
- * Returns a tracer, which holds state shared between planes. Where the mesh is open, a straight line joins the ends. Points
- * are left out as long as the contour stays within `tolerance_mm` of them.
- * Cost of a plane: linear in the facets that it cuts.
+ * Returns a tracer, which holds state shared between planes. Where the mesh is open, a straight line joins the ends. Points are omitted as
+ * long as the contour stays within `tolerance_mm` of them. Cost per plane: linear in the facets that it cuts.
  */
 export function tracer({ points, topology }: Solid, tolerance_mm: number): Tracer {
   const { corner, twin } = topology;
-  // The last plane whose contour passed each facet: saves clearing a set for each plane.
+  // Last plane whose contour passed each facet; saves clearing a set for each plane.
   const seen = new Uint32Array(corner.length / 3);
   let plane = 0;
   const height = (halfEdge: number): number => points[3 * (corner[halfEdge] ?? 0) + 2] ?? 0;
@@ -98,7 +98,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
     return -1;
   };
 
-  /** Appends where a half-edge meets the plane, computed from its lower end so that both facets get the same point. */
+  /** Appends the intersection of a half-edge with the plane, computed from its lower end so that both facets get the same point. */
   const meet = (edge: number, z: number, into: number[]): void => {
     const one = 3 * (corner[edge] ?? 0);
     const other = 3 * (corner[after(edge)] ?? 0);
@@ -113,7 +113,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
     }
   };
 
-  /** Walks from facet to facet; returns false if it reaches an open edge before it has come full circle. */
+  /** Walks from facet to facet; returns false at an open edge, true when the contour closes. */
   const walk = (from: number, z: number, upwards: boolean, into: number[]): boolean => {
     let facet = from;
     for (;;) {
@@ -151,7 +151,7 @@ export function tracer({ points, topology }: Solid, tolerance_mm: number): Trace
   }
 }
 
-/** Joins the points before, which come last first, and those behind. */
+/** Joins the points found backwards, which are in reverse order, with those found forwards. */
 function joined(before: readonly number[], behind: readonly number[]): number[] {
   const out: number[] = [];
   for (let i = before.length - 2; i >= 0; i -= 2) out.push(before[i] ?? 0, before[i + 1] ?? 0);
@@ -159,10 +159,10 @@ function joined(before: readonly number[], behind: readonly number[]): number[] 
   return out;
 }
 
-/** Most points left out in a row: each is checked again for each that follows. */
+/** Maximum number of points omitted in a row, since each is checked again for every further one. */
 const RUN_LIMIT = 32;
 
-/** The number of the leftmost point, the lowest if there are several: certainly a corner. */
+/** Index of the leftmost point, the lowest of several; it is certainly a corner. */
 function leftmost(contour: Contour): number {
   let found = 0;
   for (let i = 2; i < contour.length; i += 2) {
@@ -172,7 +172,7 @@ function leftmost(contour: Contour): number {
   return found / 2;
 }
 
-/** Leaves out points while all of them stay within the tolerance of the line that replaces them. */
+/** Omits points as long as all of them stay within the tolerance of the line that replaces them. */
 export function simplified(contour: Contour, tolerance_mm: number): Contour {
   const count = contour.length / 2;
   const start = leftmost(contour);

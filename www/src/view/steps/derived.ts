@@ -9,7 +9,7 @@ import { topologyOf, type Topology } from "../scene/topology.js";
 import { wallsOf, type Walls } from "../walls/thickness.js";
 import { inParts } from "./work.js";
 
-/** Fraction of the progress bar for finding the topology, if it has not been found yet. */
+/** Fraction of the progress bar for the topology, if not yet known. */
 const TOPOLOGY_PART = 0.3;
 
 export class Derived {
@@ -21,58 +21,58 @@ export class Derived {
   #steps = new AbortController();
   #walls = new AbortController();
 
-  /** @param positions nine numbers a facet, mm, in the file's pose */
+  /** @param positions nine numbers per facet, mm, in the file's pose */
   constructor(positions: Float32Array) {
     this.positions = positions;
   }
 
-  /** How the facets are connected; `null` once this is disposed of. */
+  /** Connectivity of the facets; null after disposal. */
   topology(): Promise<Topology | null> {
     return this.#whileAlive(this.#found());
   }
 
-  /** Where rays hit the model; null if it has no facets. Built at once, on first request. */
+  /** Raycaster of the model; null without facets. Built synchronously on first request. */
   get raycast(): Raycast | null {
     if (this.positions.length >= 9) this.#raycast ??= new Raycast(this.positions);
     return this.#raycast;
   }
 
-  /** The distinct points of the model; `null` once this is disposed of. */
+  /** Distinct points of the model; null after disposal. */
   async points(): Promise<Float32Array | null> {
     return (await this.topology())?.points ?? null;
   }
 
-  /** The flat face that a facet belongs to; `null` if there is none, or once this is disposed of. */
+  /** Flat face around a facet; null if there is none, or after disposal. */
   async face(facet: number): Promise<FlatFace | null> {
     const topology = await this.topology();
     return topology === null ? null : flatFace(this.positions, topology, facet);
   }
 
-  /** The stair steps in this pose; `null` if they were cancelled or another pose or plan was requested meanwhile. */
+  /** Stair steps in this pose; null if cancelled, or if another pose or plan was requested meanwhile. */
   steps(rotation: Rotation, scale: number, z_mm: readonly number[], tell: (progress: number) => void): Promise<Steps | null> {
     this.cancel();
     return this.#ofSolid(rotation, scale, this.#steps.signal, (solid) => stairSteps(solid, z_mm), tell);
   }
 
-  /** The same stair steps with their distances from the model; `null` as for `steps`. */
+  /** The stair steps with their distances from the model; null as for `steps`. */
   measured(rotation: Rotation, scale: number, steps: Steps, tell: (progress: number) => void): Promise<MeasuredSteps | null> {
     this.cancel();
     return this.#ofSolid(rotation, scale, this.#steps.signal, (solid) => measured(solid, steps), tell);
   }
 
-  /** How thick the model is, in the file's lengths; `null` if that was cancelled. */
+  /** Wall thickness of the model, in the file's lengths; null if cancelled. */
   walls(tell: (progress: number) => void): Promise<Walls | null> {
     this.cancelWalls();
     return this.#ofSolid(UPRIGHT, 1, this.#walls.signal, wallsOf, tell);
   }
 
-  /** Cancels the steps or the measuring under way. */
+  /** Cancels the current computation or measurement of steps. */
   cancel(): void {
     this.#steps.abort();
     this.#steps = new AbortController();
   }
 
-  /** Cancels the measuring of walls under way. */
+  /** Cancels the current measurement of walls. */
   cancelWalls(): void {
     this.#walls.abort();
     this.#walls = new AbortController();
@@ -84,7 +84,7 @@ export class Derived {
     this.#stop.abort();
   }
 
-  /** Does work on the posed model, until it is aborted. */
+  /** Runs work on the posed model until aborted. */
   async #ofSolid<Result>(
     rotation: Rotation,
     scale: number,
@@ -108,7 +108,7 @@ export class Derived {
     }
   }
 
-  /** Computed once, on first request. */
+  /** The topology, computed on first request. */
   #found(tell?: (progress: number) => void): Promise<Topology> {
     this.#topology ??= inParts(topologyOf(this.positions), this.#stop.signal, tell).finally(() => (this.#hasTopology = true));
     return this.#topology;

@@ -19,7 +19,7 @@ function toSegment(p: Point, a: Point, b: Point): number {
   return lengthOf(minus(minus(p, a), [part * along[0], part * along[1], part * along[2]]));
 }
 
-/** The distance to the plane where the point is above or below the facet, else the distance to the nearest edge. */
+/** Distance to the plane if the point is above or below the facet, otherwise to the nearest edge. */
 function toFacet(p: Point, [a, b, c]: readonly [Point, Point, Point]): number {
   const normal = cross(minus(b, a), minus(c, a));
   const isInside = (from: Point, to: Point): boolean => dot(cross(minus(to, from), minus(p, from)), normal) >= 0;
@@ -42,20 +42,20 @@ function naive({ points, topology }: Solid, p: Point): number {
 
 const measure = (of: Solid, z_mm: readonly number[]): MeasuredSteps => finished(measured(of, finished(stairSteps(of, z_mm))));
 
-/** Every corner of the steps with its distance. */
+/** All corners of the steps with their distances. */
 const corners = ({ parts }: MeasuredSteps): [Point, number][] =>
   parts.flatMap(({ positions, away_mm }) =>
     Array.from(away_mm, (away, i): [Point, number] => [[...positions.subarray(3 * i, 3 * i + 3)] as unknown as Point, away]),
   );
 
-/** A ramp that rises from `length` to 0 along x, with a vertical back at x = 0. */
+/** Ramp that rises from `length` to 0 along x, with a vertical back at x = 0. */
 function ramp(length: number, height: number, width: number): Float32Array {
   const [a, b, c]: readonly Point[] = [[0, 0, 0], [length, 0, 0], [0, 0, height]] as const;
   const [d, e, f]: readonly Point[] = [[0, width, 0], [length, width, 0], [0, width, height]] as const;
   return Float32Array.from([a, b, c, d, f, e, a, d, e, a, e, b, b, e, f, b, f, c, a, c, f, a, f, d].flatMap((point) => [...(point ?? [])]));
 }
 
-/** A cone twice as high as `height`, without the upper half. */
+/** Lower half of a cone of height 2 · `height`. */
 function frustum(radius: number, height: number, around: number): Float32Array {
   const at = (turn: number, out: number, z: number): Point => {
     const angle = (2 * Math.PI * (turn % around)) / around;
@@ -70,7 +70,7 @@ function frustum(radius: number, height: number, around: number): Float32Array {
   return Float32Array.from(points.flat());
 }
 
-/** The distance that the picture shows at a place on a horizontal triangle: between those of its corners. */
+/** Distance shown at a place on a horizontal triangle, interpolated between its corners. */
 function shown({ parts }: MeasuredSteps, [x, y, z]: Point): number {
   for (const { positions, index, away_mm } of parts) {
     for (let i = 0; i < index.length; i += 3) {
@@ -101,7 +101,7 @@ describe("distances of the stair steps", () => {
     const z_mm = layers(height, layer);
     const steps = measure(of, z_mm);
     expect(steps.greatest_mm).toBeCloseTo(wanted, 5);
-    // The corners that are beyond the ramp; the others are on one of its sides.
+    // Corners beyond the ramp; the others lie on its sides.
     const [first] = finished(stairSteps(of, z_mm)).parts;
     const all = corners(steps).slice(0, (first?.positions.length ?? 0) / 3);
     const tops = all.filter(([[x, , z]]) => (x + height / Math.tan(slope) / 2) * Math.tan(slope) > height - z + 1e-3);
@@ -118,7 +118,7 @@ describe("distances of the stair steps", () => {
   ])("of %s are those to the nearest of all facets", (_, positions, rotation) => {
     const of = solid(positions, rotation);
     const steps = measure(of, layers(9, 0.37));
-    // What is farther away is under the next layer, where nobody sees it.
+    // Corners farther away are hidden under the next layer.
     const reach = 0.37 / 2 + steps.tolerance_mm;
     const isSeen = (away: number): boolean => away < reach - 1e-3;
     const all = corners(steps);
@@ -135,7 +135,7 @@ describe("distances of the stair steps", () => {
   }, 20_000);
 
   it("are found between corners that are on other facets", () => {
-    // The ramp is between two walls: the corners at both ends of each edge are on those.
+    // The ramp is between two walls, which contain the corners at both ends of each edge.
     const slope = Math.PI / 4;
     const [left, right] = [box([-1, -2, 0], [11, 0, 12]), box([-1, 7, 0], [11, 9, 12])];
     const { greatest_mm } = measure(solid(together(left, ramp(10, 10, 7), right)), layers(12, 0.25));
@@ -143,7 +143,7 @@ describe("distances of the stair steps", () => {
   });
 
   it("are zero on a flat within sloping sides", () => {
-    // A cone without its tip: the rim of the flat is off, all but its edge is on the model.
+    // A truncated cone: the rim of its flat deviates, everything inside is on the model.
     const [radius, height] = [10, 8];
     const of = solid(frustum(radius, height, 64));
     const steps = measure(of, layers(height, 0.5));

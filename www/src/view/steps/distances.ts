@@ -1,4 +1,4 @@
-/** How far the stair steps are from the model's surface. */
+/** Distances of the stair steps from the model's surface. */
 import { Box3, Vector3 } from "three";
 import type { Solid } from "./contours.js";
 import { nearestOf } from "./nearest.js";
@@ -9,33 +9,33 @@ import { shared } from "./work.js";
 
 export interface MeasuredSteps extends Steps {
   readonly parts: readonly MeasuredPart[];
-  /** The largest distance found, mm. */
+  /** Largest distance found, mm. */
   readonly greatest_mm: number;
 }
 
 export const isMeasured = (steps: Steps | null): steps is MeasuredSteps => steps !== null && "greatest_mm" in steps;
 
-/** Fractions of the progress: for sorting the facets, for finding the shallow ones, and for the corners of each part. */
+/** Fractions of the progress: sorting the facets, finding shallow ones, and the corners of each part. */
 const SORTING = 0.1;
 const PREPARING = 0.15;
 const CORNERS = 0.5;
 
-/** Corners that share a walk through the facets: more would find more facets that are near only a few of them. */
+/** Corners that share a query of nearby facets; a larger group would gather facets that are near few of its corners. */
 const GROUP = 32;
 
 /** Longest side of the box around such a group, as a fraction of the model's longest side. */
 const GROUP_PART = 1 / 64;
 
-/** What is longer than this fraction of the model's longest side is split where its corners say too little: a few pixels. */
+/** Minimum length of an edge to split, as a fraction of the model's longest side: a few pixels. */
 const FINEST_PART = 1 / 128;
 
-/** What the rounding of coordinates may add to a distance, as a fraction of the model's longest side. */
+/** Bound of the effect of rounded coordinates on a distance, as a fraction of the model's longest side. */
 const ROUNDING = 1e-6;
 
 /** Triangles between two yields. */
 const BLOCK = 32;
 
-/** The longest side of what the points span, mm. */
+/** Longest side of the points' bounds, mm. */
 function longestSide(points: Float32Array): number {
   return Math.max(...new Box3().setFromArray(points).getSize(new Vector3()).toArray());
 }
@@ -69,7 +69,7 @@ function* cornersOf({ positions }: StepsPart, size_mm: number, { nearest, roundi
         Math.max(box.max.y, bottom.y) - Math.min(box.min.y, bottom.y) > side;
       if (end > first && isFar) break;
       box.expandByPoint(bottom).expandByPoint(top);
-      // Half-way up the wall is the contour, which is on the model: no corner is farther away than that.
+      // At half its height, the wall follows the contour, which is on the model, so no corner is farther away than half the height.
       reach = Math.max(reach, (top.z - bottom.z) / 2 + rounding_mm);
     }
     nearest.gather(box, reach);
@@ -82,7 +82,7 @@ function* cornersOf({ positions }: StepsPart, size_mm: number, { nearest, roundi
   return away;
 }
 
-/** Splits a part where its corners say too little. */
+/** Splits a part where interpolation between its corners is not accurate enough. */
 function* refined(part: StepsPart, away_mm: Float32Array, ruler: Ruler): Generator<number, Refinement> {
   const { positions, index } = part;
   const out = new Refinement(part, away_mm, ruler);
@@ -93,7 +93,7 @@ function* refined(part: StepsPart, away_mm: Float32Array, ruler: Ruler): Generat
       out.tread(a, b, c);
       at += 3;
     } else {
-      // Both triangles of a wall: the first has two corners at the bottom, and each corner's top follows it.
+      // Two triangles of a wall: the first has two corners at the bottom, and each is followed by the corner at its top.
       out.wall(a, a + 1, b, b + 1);
       at += 6;
     }
@@ -113,10 +113,9 @@ function* rulerOf(solid: Solid, size_mm: number, steps: Steps): Generator<number
 }
 
 /**
- * Measures the stair steps of a model: each corner, and where the corners say too little, corners between them. Facets hidden
- * inside other bodies are facets too. Walls that close a hole of the mesh have no facet near them: they are drawn as half a
- * thickest layer away. Yields its progress, 0 to 1.
- * Cost: about ten microseconds a corner.
+ * Measures the stair steps of a model: each corner, and additional corners where interpolation is not accurate enough. Facets hidden inside
+ * other bodies also count. Walls that close a hole of the mesh have no facet nearby, and are drawn as half a thickest layer away. Yields
+ * its progress, 0 to 1. Cost: about ten microseconds per corner.
  */
 export function* measured(solid: Solid, steps: Steps): Generator<number, MeasuredSteps> {
   const size_mm = longestSide(solid.points);

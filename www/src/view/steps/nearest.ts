@@ -3,31 +3,31 @@ import { Box3, Triangle, Vector3 } from "three";
 import type { Solid } from "./contours.js";
 import { slabsOf, type Slab } from "./slabs.js";
 
-/** Nearer than this counts as on the facet, mm: less than coordinates resolve. */
+/** Smaller distances count as on the facet, mm; below the resolution of coordinates. */
 const ON_FACET_MM = 1e-6;
 
 /** The axis of heights. */
 const HEIGHT = 2;
 
-/** Facets in a hierarchy. */
+/** Facets per hierarchy. */
 const SLAB_FACETS = 4096;
 
-/** So many gathered facets are worth more room around the box, or less. */
+/** With fewer gathered facets than this, the margin around the box grows; with more than the other, it shrinks. */
 const FEW = 16;
 const MANY = 48;
 
 /**
- * The facets of a model, to ask for distances. Points near one another share a walk through the hierarchies: first `gather`
- * the facets around them, then measure each point.
+ * Distance queries to the facets of a model. Points near one another share a traversal of the hierarchies: first `gather` the facets around
+ * them, then measure each point.
  */
 export class Nearest {
   readonly #points: Float32Array;
   readonly #index: Uint32Array;
   readonly #slabs: readonly Slab[];
-  /** Numbers of the gathered facets, and the bounds of each: three least and three greatest coordinates. */
+  /** Indices of the gathered facets, and the bounds of each: three minimum and three maximum coordinates. */
   readonly #gathered: number[] = [];
   readonly #bounds: number[] = [];
-  /** What was asked for, and what was gathered. */
+  /** Box requested, and box gathered. */
   readonly #wanted = new Box3();
   #room_mm = 0;
   readonly #around = new Box3();
@@ -43,8 +43,8 @@ export class Nearest {
   }
 
   /**
-   * Collects the facets whose bounds are within `reach_mm` of a box, unless the last call did already: the next box is often
-   * near the last, so there is as much room around it as takes few facets more.
+   * Collects the facets with bounds within `reach_mm` of a box, unless the last call did already. The next box is often near the last, so a
+   * margin is added, as large as possible for a few more facets.
    */
   gather(box: Box3, reach_mm: number): void {
     this.#wanted.copy(box).expandByScalar(reach_mm);
@@ -66,8 +66,7 @@ export class Nearest {
   }
 
   /**
-   * Distance of a point to the nearest of the gathered facets, mm; `most_mm` if all are farther away. Facets hidden inside
-   * other bodies count too.
+   * Distance of a point to the nearest gathered facet, mm; `most_mm` if all are farther away. Facets hidden inside other bodies also count.
    */
   distance(x: number, y: number, z: number, most_mm: number): number {
     let nearest = most_mm;
@@ -105,10 +104,10 @@ export class Nearest {
   }
 }
 
-/** How far a value is outside a range. */
+/** Distance of a value outside a range; 0 inside. */
 const outside = (value: number, least: number, greatest: number): number => Math.max(least - value, value - greatest, 0);
 
-/** Prepares a model for questions of distance. Yields its progress, 0 to 1. */
+/** Prepares a model for distance queries. Yields its progress, 0 to 1. */
 export function* nearestOf(solid: Solid): Generator<number, Nearest> {
   const { index, slabs } = yield* slabsOf(solid, HEIGHT, SLAB_FACETS);
   return new Nearest(solid.points, index, slabs);

@@ -4,10 +4,10 @@ import { isMeasured } from "./distances.js";
 import type { Rotation } from "../scene/pose.js";
 import type { Steps } from "./steps.js";
 
-/** How long pose and plan must stay the same, ms. */
+/** Delay after the last change of pose or plan, ms. */
 const SETTLED_MS = 150;
 
-/** What the steps are computed from. */
+/** Input of the steps. */
 export interface Job {
   readonly derived: Derived;
   readonly rotation: Rotation;
@@ -16,11 +16,11 @@ export interface Job {
 }
 
 export interface PrintedReports {
-  /** Progress of computing the steps: 0 to 1 while under way, null afterwards. */
+  /** Progress of computing the steps, 0 to 1; null at the end. */
   building(progress: number | null): void;
-  /** Progress of measuring them. */
+  /** Progress of measuring them, likewise. */
   measuring(progress: number | null): void;
-  /** The steps of the last job, later with their distances; null while there are none. */
+  /** Steps of the last job, later with their distances; null until computed. */
   steps(steps: Steps | null): void;
 }
 
@@ -34,7 +34,7 @@ export class Printed {
   readonly #reports: PrintedReports;
   #timer = 0;
   #job: Job | null = null;
-  /** The steps of the job, as soon as there are any. */
+  /** Steps of the job, once computed. */
   #steps: Steps | null = null;
   #measures = false;
 
@@ -44,7 +44,8 @@ export class Printed {
 
   /**
    * Replaces the last job and discards its steps, unless they are the same; null: no job.
-   * @param measures whether the distances of the steps are wanted too
+   *
+   * @param measures true if the distances of the steps are needed too
    */
   want(job: Job | null, measures: boolean): void {
     const isNew = !areSame(job, this.#job);
@@ -70,7 +71,7 @@ export class Printed {
 
   async #build(job: Job): Promise<void> {
     const { derived, rotation, scale, z_mm } = job;
-    // Facets stay on show if memory does not suffice.
+    // If memory runs out, the facets stay visible.
     const steps = await this.#told(job, "building", (tell) => derived.steps(rotation, scale, z_mm, tell));
     if (steps === null) return;
     this.#steps = steps;
@@ -86,7 +87,7 @@ export class Printed {
     this.#reports.steps(measured);
   }
 
-  /** Reports the progress of work on a job; null if there is another job by the time that it is done. */
+  /** Reports the progress of work on a job; null if there is another job at its end. */
   async #told<Result>(
     job: Job,
     report: "building" | "measuring",
@@ -100,7 +101,7 @@ export class Printed {
       const result = await work(tell);
       return job === this.#job ? result : null;
     } finally {
-      // Also if memory does not suffice.
+      // Also if memory runs out.
       tell(null);
     }
   }

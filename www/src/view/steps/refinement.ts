@@ -1,4 +1,4 @@
-/** Splits the triangles of stair steps where the distances at their corners say too little about those between. */
+/** Splits triangles of the stair steps where distances cannot be interpolated from their corners. */
 import { Box3, Vector3 } from "three";
 import { Growing } from "./growing.js";
 import type { Nearest } from "./nearest.js";
@@ -7,11 +7,11 @@ import type { StepsPart } from "./steps.js";
 
 /** A part of the stair steps with its distances from the model. */
 export interface MeasuredPart extends StepsPart {
-  /** Distance of each corner to the nearest facet of the model, mm; 0 if it is only rounding. */
+  /** Distance of each corner to the nearest facet of the model, mm; 0 if within rounding. */
   readonly away_mm: Float32Array;
 }
 
-/** Fraction of the reach by which a distance may differ from what its neighbours say. */
+/** Tolerance of an interpolated distance, as a fraction of the reach. */
 const ALIKE_PART = 1 / 12;
 
 export interface Ruler {
@@ -19,18 +19,18 @@ export interface Ruler {
   readonly shallow: Shallow;
   /** Half the thickest layer, mm: no point on the outside of the steps is farther from the model. */
   readonly reach_mm: number;
-  /** Nothing shorter is split, mm. */
+  /** Shorter edges are not split, mm. */
   readonly finest_mm: number;
-  /** How far contours may be from the model, mm. */
+  /** Maximum distance of contours from the model, mm. */
   readonly contour_mm: number;
-  /** Distances up to this are only rounding, mm. */
+  /** Distances up to this are rounding, mm. */
   readonly rounding_mm: number;
 }
 
 const point = new Vector3();
 const box = new Box3();
 
-/** Distance of a point to the nearest facet, mm; 0 if it is only rounding, the reach if all facets are farther away. */
+/** Distance of a point to the nearest facet, mm; 0 if within rounding, the reach if all facets are farther away. */
 function measure({ nearest, reach_mm, rounding_mm }: Ruler, x: number, y: number, z: number): number {
   point.set(x, y, z);
   nearest.gather(box.set(point, point), reach_mm);
@@ -41,21 +41,21 @@ function measure({ nearest, reach_mm, rounding_mm }: Ruler, x: number, y: number
 /** A place with its distance: x, y, z and mm. */
 type Place = readonly [x: number, y: number, z: number, away_mm: number];
 
-/** The key of an edge, whichever way it runs. */
+/** Key of an undirected edge. */
 const edge = (a: number, b: number): number => Math.min(a, b) * 2 ** 26 + Math.max(a, b);
 
-/** A part with its distances, and the corners and triangles that it gets. Call `wall` for the walls around a tread first. */
+/** A part with its distances, and its new corners and triangles. Call `wall` for the walls around a tread first. */
 export class Refinement {
-  /** The largest distance of a corner of the walls, mm. */
+  /** Largest distance of a wall corner, mm. */
   greatest_mm = 0;
   readonly #part: StepsPart;
   readonly #away_mm: Float32Array;
   readonly #ruler: Ruler;
   readonly #alike_mm: number;
-  /** Coordinates and distance of each corner that was added. */
+  /** Coordinates and distance of each added corner. */
   readonly #added: number[] = [];
   readonly #index = new Growing((length) => new Uint32Array(length));
-  /** The corner in the middle of each edge of a wall that was split. */
+  /** The corner in the middle of each split wall edge. */
   readonly #split = new Map<number, number>();
 
   constructor(part: StepsPart, away_mm: Float32Array, ruler: Ruler) {
@@ -66,14 +66,14 @@ export class Refinement {
     for (const away of away_mm) this.greatest_mm = Math.max(this.greatest_mm, away);
   }
 
-  /** A rectangle by the bottom and top of its one end and of its other. */
+  /** Adds a rectangle, given by the bottom and top of one end and of the other. */
   wall(bottom: number, top: number, nextBottom: number, nextTop: number): void {
     const { finest_mm } = this.#ruler;
     if (this.#length(bottom, nextBottom) > finest_mm) {
       const [low, high] = [this.#middle(bottom, nextBottom), this.#middle(top, nextTop)];
       if (!this.#isAlike(low, bottom, nextBottom) || !this.#isAlike(high, top, nextTop)) {
         const [middle, above] = [this.#add(low), this.#add(high)];
-        // Half-way up, a wall is on the model, unless it closes a hole: there is nothing to be distant from.
+        // Half-way up, a wall is on the model, unless it closes a hole, where no distance applies.
         const isOnModel = this.#middle(bottom, nextTop)[3] <= this.#ruler.contour_mm;
         if (isOnModel) this.greatest_mm = Math.max(this.greatest_mm, low[3], high[3]);
         this.#split.set(edge(bottom, nextBottom), middle).set(edge(top, nextTop), above);
@@ -96,8 +96,8 @@ export class Refinement {
   }
 
   /**
-   * A triangle of a tread. Most of a tread is under the layer above, and farther from the model than what is outside: there
-   * nothing is split. Nor are narrow treads: they have the colours of their edges, where the distance is largest.
+   * Adds a triangle of a tread. Most of a tread is under the layer above, and farther from the model than the outside, so it is not split.
+   * Neither are narrow treads: they take the colours of their edges, where the distance is largest.
    */
   tread(a: number, b: number, c: number): void {
     if (this.#split.size > 0) {
@@ -114,7 +114,7 @@ export class Refinement {
     else this.#flat(a, b, c);
   }
 
-  /** The part with all that was split; the given arrays if nothing was. */
+  /** The part with all splits; the given arrays if there are none. */
   done(): MeasuredPart {
     const { positions, index } = this.#part;
     const before = this.#away_mm;
@@ -130,7 +130,7 @@ export class Refinement {
     return { ...out, index: this.#index.done() };
   }
 
-  /** A triangle whose longest side is from `a` to `b`. */
+  /** Adds a triangle whose longest side is from `a` to `b`. */
   #flat(a: number, b: number, c: number): void {
     const longest_mm = this.#length(a, b);
     if (longest_mm > this.#ruler.finest_mm && this.#differs(a, b, c, longest_mm)) {
@@ -138,7 +138,7 @@ export class Refinement {
     } else this.#index.push(a, b, c);
   }
 
-  /** A place in the middle of a tread's side, if it is under the layer above not farther away than what is outside can be. */
+  /** A place in the middle of a tread's side. If it is under the layer above, its distance is limited to the maximum on the outside. */
   #outside([x, y, z, away_mm]: Place, a: number, b: number): Place {
     const isUnder = away_mm >= this.#ruler.reach_mm;
     return [x, y, z, isUnder ? (this.#value(a, 3) + this.#value(b, 3)) / 2 : Math.min(away_mm, this.greatest_mm)];
@@ -150,8 +150,8 @@ export class Refinement {
   }
 
   /**
-   * Whether somewhere in a triangle, whose longest side is `longest_mm`, the distance is not what the corners say: in its
-   * middle, in the middle of that side, or near a corner, since often only the corners are outside.
+   * Returns true if interpolation is inaccurate somewhere in a triangle with longest side `longest_mm`: at its centre, in the middle of
+   * that side, or near a corner, since often only the corners are outside.
    */
   #differs(a: number, b: number, c: number, longest_mm: number): boolean {
     const rest = Math.min(0.25, (0.5 * this.#ruler.finest_mm) / longest_mm);
@@ -165,7 +165,7 @@ export class Refinement {
     );
   }
 
-  /** The same at the mean of the corners with these weights of the first two. */
+  /** Returns true if interpolation is inaccurate at the mean of the corners with weights `u` and `v` of the first two. */
   #isOff(a: number, b: number, c: number, u: number, v: number): boolean {
     const { shallow, reach_mm } = this.#ruler;
     const mean = (which: number): number =>

@@ -1,10 +1,10 @@
-/** Where a model has surfaces so shallow that the treads on them are wide. */
+/** Regions of a model so shallow that their treads are wide. */
 import type { Solid } from "./contours.js";
 
 /** Facets between two yields. */
 const BLOCK = 2048;
 
-/** Marks of the cells of a grid around the shallow facets: a quick answer to whether one may be near a point. */
+/** Grid whose cells around shallow facets are marked: a quick test for one near a point. */
 export class Shallow {
   readonly #cell_mm: number;
   readonly #least: readonly number[];
@@ -37,7 +37,7 @@ export class Shallow {
     }
   }
 
-  /** The cell of a coordinate; that at the edge for what is outside. */
+  /** Cell of a coordinate, clamped to the grid. */
   #cell(value: number, axis: number): number {
     const cell = Math.floor((value - (this.#least[axis] ?? 0)) / this.#cell_mm);
     return Math.min((this.#count[axis] ?? 1) - 1, Math.max(0, cell));
@@ -49,8 +49,8 @@ export class Shallow {
 }
 
 /**
- * Marks what is within `reach_mm` of a facet that rises by less than 2 `reach_mm`, a layer's thickness, over `cell_mm`. Yields
- * its progress, 0 to 1.
+ * Marks the cells within `reach_mm` of a facet that rises by less than 2 `reach_mm`, a layer's thickness, over `cell_mm`. Yields its
+ * progress, 0 to 1.
  */
 export function* shallowOf({ points, topology: { corner } }: Solid, cell_mm: number, reach_mm: number): Generator<number, Shallow> {
   const out = new Shallow(points, cell_mm);

@@ -1,4 +1,4 @@
-/** The facets of a model in slabs, each with a bounding volume hierarchy: one of all facets would block the page while it is built. */
+/** Facets of a model in slabs, each with a bounding volume hierarchy; a single hierarchy would block the page while it is built. */
 import { Box3, BufferAttribute, BufferGeometry, Vector3 } from "three";
 import { MeshBVH } from "three-mesh-bvh";
 import type { Solid } from "./contours.js";
@@ -7,7 +7,7 @@ import { shared } from "./work.js";
 /** Facets between two yields while they are sorted. */
 const BLOCK = 8192;
 
-/** Places along the axis that facets are sorted into. */
+/** Number of bins along the axis for sorting facets. */
 const BINS = 4096;
 
 /** Fraction of the progress for sorting. */
@@ -15,19 +15,19 @@ const SORTING = 0.25;
 
 export type Axis = 0 | 1 | 2;
 
-/** Facets that are neighbours along an axis, and their bounds. Ask those first: a walk through a tree costs a microsecond to begin. */
+/** Facets that are neighbours along an axis, and their bounds. Test the bounds first: a tree traversal costs a microsecond to start. */
 export interface Slab {
   readonly bounds: Box3;
   readonly tree: MeshBVH;
 }
 
 export interface Slabs {
-  /** Three points a facet; the trees count facets by their place in it. */
+  /** Three points per facet; the trees refer to facets by their position in it. */
   readonly index: Uint32Array;
   readonly slabs: readonly Slab[];
 }
 
-/** Points of the facets in their order along an axis, three numbers a facet. */
+/** Points of the facets in their order along an axis, three numbers per facet. */
 function* sorted({ points, topology: { corner } }: Solid, axis: Axis): Generator<number, Uint32Array> {
   const count = corner.length / 3;
   const middle = (facet: number): number => {
@@ -61,8 +61,8 @@ function* sorted({ points, topology: { corner } }: Solid, axis: Axis): Generator
 }
 
 /**
- * Sorts the facets of a model into slabs of so many facets across an axis. A hierarchy of 4096 facets takes a few milliseconds to
- * build, during which the page does not respond; but each costs a walk. Yields its progress, 0 to 1.
+ * Sorts the facets of a model into slabs across an axis, each of `facets` facets. A hierarchy of 4096 facets takes a few milliseconds to
+ * build, during which the page does not respond; on the other hand, each costs a traversal. Yields its progress, 0 to 1.
  */
 export function* slabsOf(solid: Solid, axis: Axis, facets: number): Generator<number, Slabs> {
   const { points } = solid;

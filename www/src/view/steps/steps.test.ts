@@ -50,7 +50,7 @@ describe("sections", () => {
   });
 
   it("of a cube on its corner have the known area", () => {
-    // Along a diagonal the section at the middle of a unit cube is a regular hexagon of area 3√3/4.
+    // Perpendicular to a diagonal, the section at the middle of a unit cube is a regular hexagon of area 3√3/4.
     const corner = turned(turned(UPRIGHT, "z", 45), "x", (180 / Math.PI) * Math.atan(Math.SQRT2));
     const of = solid(box([0, 0, 0], [1, 1, 1]), corner);
     const [contours = []] = sections(of, [Math.sqrt(3) / 2]);
@@ -85,7 +85,7 @@ describe("sections", () => {
   });
 
   it("are closed by a straight line where the mesh is open", () => {
-    // One side lacks its two facets: the contour still closes.
+    // One side lacks its two facets, yet the contour closes.
     const open = box([0, 0, 0], [2, 3, 4]).slice(0, -18);
     for (const contours of sections(solid(open), [1, 2, 3])) expect(area(contours)).toBeCloseTo(6, 6);
   });

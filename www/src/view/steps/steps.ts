@@ -1,6 +1,6 @@
 /**
- * The model as it comes out of the printer: each layer is the cross-section at its middle, extruded from its bottom to its
- * top. Walls and treads are exact; the facets themselves are not drawn.
+ * The printed model: each layer is the cross-section at its middle, extruded from its bottom to its top. Walls and treads are exact; the
+ * facets themselves are not drawn.
  */
 import { Earcut } from "three/src/extras/Earcut.js";
 import { cutsOf, signedArea, tracer, type Contour, type Solid } from "./contours.js";
@@ -21,15 +21,15 @@ export interface Steps {
   readonly tolerance_mm: number;
 }
 
-/** Far finer than any printer's pixel: details left out cannot be printed either. */
+/** Far finer than any printer's pixel: omitted details cannot be printed either. */
 const TOLERANCE_MM = 0.001;
 
-/** With more contour points, the buffers (72 bytes a point) strain a phone's memory: the tolerance becomes coarser. */
+/** Beyond this number of contour points, the buffers (72 bytes per point) strain a phone's memory, so the tolerance becomes coarser. */
 const POINTS_LIMIT = 3_000_000;
 
 const COARSER = 4;
 
-/** A part ends after the layer in which it reaches this many contour points: a few megabytes. */
+/** A part ends after the layer in which it reaches this number of contour points: a few megabytes. */
 const PART_POINTS = 50_000;
 
 /** An outline with area and the holes in it. */
@@ -70,17 +70,17 @@ export function polygons(contours: readonly Contour[]): Polygon[] {
   return out;
 }
 
-/** The part under way. */
+/** The current part. */
 class Pile {
   readonly positions = new Growing((length) => new Float32Array(length));
   readonly index = new Growing((length) => new Uint32Array(length));
 
-  /** Contour points: each has a corner at the bottom and one at the top of its layer. */
+  /** Number of contour points; each has a corner at the bottom and one at the top of its layer. */
   get points(): number {
     return this.positions.length / 6;
   }
 
-  /** Adds the corners of a contour, bottom and top in turn; returns the number of the first. */
+  /** Adds the corners of a contour, alternately bottom and top; returns the index of the first. */
   #corners(contour: Contour, bottom: number, top: number): number {
     const first = this.positions.length / 3;
     for (let i = 0; i < contour.length; i += 2) {
@@ -138,9 +138,8 @@ export const middles = (z_mm: readonly number[]): number[] =>
   z_mm.slice(1).map((top, layer) => ((z_mm[layer] ?? 0) + top) / 2);
 
 /**
- * The stair steps of a model sliced at `z_mm` (layer boundaries, ascending). Yields its progress, 0 to 1, after each layer,
- * so that the caller can let other work run.
- * Cost: linear in the facets plus the points of all contours.
+ * Stair steps of a model sliced at `z_mm` (layer boundaries, ascending). Yields its progress, 0 to 1, after each layer, so that the caller
+ * can let other work run. Cost: linear in the facets plus the points of all contours.
  */
 export function* stairSteps(solid: Solid, z_mm: readonly number[]): Generator<number, Steps> {
   const planes = middles(z_mm);

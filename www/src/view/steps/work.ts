@@ -1,9 +1,9 @@
-/** Runs long work in short parts, between which the page responds. */
+/** Runs long work in short slices, between which the page responds. */
 
 /** A frame at 60 Hz lasts 16.7 ms, some of which the page itself needs. */
 const PART_MS = 8;
 
-/** Interval between reports of progress, ms. */
+/** Interval between progress reports, ms. */
 const TELL_EVERY_MS = 100;
 
 /** Yields to the browser. A message arrives sooner than a timer, which browsers delay by 4 ms. */
@@ -19,8 +19,8 @@ function turn(): Promise<void> {
 }
 
 /**
- * Runs a generator of progress values (0 to 1) to its result, at most a few ms plus one of its steps at a stretch. Rejects
- * with the signal's reason once the signal is aborted.
+ * Runs a generator of progress values (0 to 1) to its result, in slices of a few ms plus at most one of its steps. Rejects with the
+ * signal's reason once the signal is aborted.
  */
 export async function inParts<Result>(
   work: Generator<number, Result>,
@@ -42,7 +42,7 @@ export async function inParts<Result>(
   }
 }
 
-/** Work that is a share of the progress of other work: from one fraction to another. */
+/** Maps the progress of work to a part of the progress of other work. */
 export function* shared<Result>(work: Generator<number, Result>, from: number, to: number): Generator<number, Result> {
   for (;;) {
     const step = work.next();

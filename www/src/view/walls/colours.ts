@@ -1,4 +1,4 @@
-/** The colours of walls on the model: textures of the samples, and the shader that looks them up. */
+/** Colours of wall thickness on the model: textures of the samples, and the shader that looks them up. */
 import { DataTexture, FloatType, NearestFilter, RedFormat, RGIntegerFormat, UnsignedIntType, type IUniform } from "three";
 import type { WallScale } from "./scale.js";
 import type { Walls } from "./thickness.js";
@@ -6,10 +6,10 @@ import type { Walls } from "./thickness.js";
 /** Texels per row of both textures. Every WebGL 2 supports this width. */
 const ROW = 2048;
 
-/** Width of the stripes over walls that are too thin, pixels. */
+/** Width of the stripes over thin walls, pixels. */
 const STRIPE_PX = 5;
 
-/** In place of what is unknown, mm: thicker than all scales. A texture of infinities could not be interpolated. */
+/** Stands for an unknown thickness, mm: beyond every scale. A texture of infinities could not be interpolated. */
 const UNKNOWN_MM = 1e9;
 
 function filled(texture: DataTexture): DataTexture {
@@ -75,8 +75,8 @@ export class WallColours {
 }
 
 /**
- * The thickness at a place of a facet as a fraction of the scale's end, interpolated between the samples of the facet, and the colour
- * of that; for a shader that has `ofHeat`, of which 1 is the thinnest.
+ * Thickness at a place of a facet as a fraction of the scale's end, interpolated between the samples of the facet, and its colour. For a
+ * shader with `ofHeat`, where 1 is the thinnest.
  */
 export const WALLS_GLSL = /* glsl */ `
 uniform highp usampler2D wallGrids;

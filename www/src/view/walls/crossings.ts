@@ -1,23 +1,23 @@
-/** The way from a point on a model's surface through the solid to where a ray leaves it. */
+/** Distance from a point on a model's surface through the solid to the exit of a ray. */
 import type { Box3 } from "three";
 import type { Slabs } from "../steps/slabs.js";
 
-/** Hits that are nearer than this fraction of the model's size are one: bodies that touch there are not parted. */
+/** Hits closer together than this fraction of the model's size are merged, so that touching bodies form one wall. */
 const SAME_PART = 1e-6;
 
-/** In place of a part of zero, whose inverse would be no number. */
+/** Replaces a zero component, which has no inverse. */
 const TINY = 1e-30;
 
 /**
- * Rays through a model. Inside is a non-zero winding number, as it is for the slicer: overlapping bodies are a union, and a body that
- * is inside out is a cavity in another, and solid by itself.
+ * Rays through a model. Inside is a non-zero winding number, as in the slicer: overlapping bodies are a union, and an inverted body is a
+ * cavity in another, but solid by itself.
  */
 export class Crossings {
   readonly #points: Float32Array;
   readonly #index: Uint32Array;
   readonly #slabs: Slabs["slabs"];
   readonly #same_mm: number;
-  /** The hits of a ray in their order: how far away they are, and whether the ray goes out (1) or in (−1). */
+  /** Hits of a ray in order: their distances, and 1 where the ray leaves or −1 where it enters a body. */
   readonly #at_mm: number[] = [];
   readonly #out: number[] = [];
   #ox = 0;
@@ -26,7 +26,7 @@ export class Crossings {
   #dx = 0;
   #dy = 0;
   #dz = 0;
-  /** One over the direction. */
+  /** Inverse of the direction. */
   #ix = 0;
   #iy = 0;
   #iz = 0;
@@ -39,8 +39,8 @@ export class Crossings {
   }
 
   /**
-   * How far it is from a point on a facet, mm, in the direction of a unit vector, to where the solid ends; null if there is none in
-   * this direction. Hits at the point itself are none.
+   * Distance in mm from a point on a facet along a unit vector to the end of the solid; null if the solid is not in this direction. Hits at
+   * the point itself are ignored.
    */
   through(ox: number, oy: number, oz: number, dx: number, dy: number, dz: number): number | null {
     [this.#ox, this.#oy, this.#oz] = [ox, oy, oz];
@@ -48,7 +48,7 @@ export class Crossings {
     [this.#ix, this.#iy, this.#iz] = [1 / (dx || TINY), 1 / (dy || TINY), 1 / (dz || TINY)];
     this.#at_mm.length = this.#out.length = 0;
     for (const { bounds, tree } of this.#slabs) if (this.#meets(bounds)) tree.shapecast(this.#walk);
-    // Far away the winding number is zero, so what the hits take from it is what it is at the point.
+    // The winding number is zero far away, so the sum over the hits is that at the point.
     let winding = 0;
     for (const out of this.#out) winding += out;
     if (winding === 0) return null;
@@ -79,7 +79,7 @@ export class Crossings {
     },
   };
 
-  /** After Möller and Trumbore, Fast, minimum storage ray/triangle intersection (1997). */
+  /** Möller and Trumbore, Fast, minimum storage ray/triangle intersection (1997). */
   #meet(facet: number): void {
     const points = this.#points;
     const a = 3 * (this.#index[3 * facet] ?? 0);

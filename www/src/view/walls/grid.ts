@@ -1,7 +1,7 @@
 /**
- * Where samples are on facets. A facet has a grid of cells: columns along its longest side, rows from there to the corner opposite,
- * in which they end. A facet smaller than the spacing is a single cell, one with long sides many: what is measured at a place
- * inside a cell is right for all of it, where one value a facet, or a corner, would be wrong on the large facets of CAD models.
+ * Positions of samples on facets. A facet has a grid of cells: columns along its longest side, and rows from there to the opposite corner,
+ * in which the columns converge. A facet smaller than the spacing is a single cell; long sides get many. A sample represents all of its
+ * cell, while one value per facet or corner would be wrong on the large facets of CAD models.
  */
 
 import { shared } from "../steps/work.js";
@@ -9,13 +9,13 @@ import { shared } from "../steps/work.js";
 /** Facets between two yields. */
 const BLOCK = 8192;
 
-/** Most columns or rows of a facet. */
+/** Maximum columns or rows of a facet. */
 const MOST_CELLS = 2048;
 
 /** Spacing of samples, as a fraction of the model's longest side: three or four pixels of a view that shows all of it. */
 const SPACING_PART = 1 / 160;
 
-/** What the spacing grows by where there would be too many samples. */
+/** Factor by which the spacing grows while there are too many samples. */
 const COARSER = 1.25;
 
 const ROWS_BIT = 12;
@@ -23,9 +23,9 @@ const APEX_BIT = 24;
 const CELLS_MASK = (1 << ROWS_BIT) - 1;
 
 export interface Grids {
-  /** Two numbers a facet: its first cell; and columns, rows, and which corner is opposite the longest side, as `packed`. */
+  /** Two numbers per facet: its first cell, and its grid as `packed`. */
   readonly grids: Uint32Array;
-  /** Cells in all. */
+  /** Total number of cells. */
   readonly cells: number;
 }
 
@@ -44,10 +44,10 @@ export const unpacked = (grid: number): Grid => ({
   apex: grid >> APEX_BIT,
 });
 
-/** Corners of facets, three points each of three coordinates, mm. */
+/** Coordinate of a facet's corner along an axis, mm. */
 export type Corner = (facet: number, corner: number, axis: number) => number;
 
-/** The longest side of each facet, its height on that, and the corner opposite. */
+/** Longest side of each facet, the height above it, and the opposite corner. */
 function* shapesOf(count: number, corner: Corner): Generator<number, { long: Float32Array; high: Float32Array; apex: Uint8Array }> {
   const out = { long: new Float32Array(count), high: new Float32Array(count), apex: new Uint8Array(count) };
   const side = new Float64Array(9);
@@ -55,7 +55,7 @@ function* shapesOf(count: number, corner: Corner): Generator<number, { long: Flo
     if (facet % BLOCK === 0) yield facet / count;
     let [apex, longest] = [0, -1];
     for (let i = 0; i < 3; i++) {
-      // Opposite corner i.
+      // The side opposite corner i.
       for (let axis = 0; axis < 3; axis++) side[3 * i + axis] = corner(facet, (i + 2) % 3, axis) - corner(facet, (i + 1) % 3, axis);
       const [x = 0, y = 0, z = 0] = side.subarray(3 * i, 3 * i + 3);
       const length = Math.sqrt(x * x + y * y + z * z);
@@ -73,8 +73,8 @@ function* shapesOf(count: number, corner: Corner): Generator<number, { long: Flo
 }
 
 /**
- * Divides the facets of a model whose longest side is `size_mm` into cells, of which there are at most `more` besides one a facet.
- * Yields its progress, 0 to 1.
+ * Divides the facets of a model with longest side `size_mm` into cells, at most `more` in addition to one per facet. Yields its progress, 0
+ * to 1.
  */
 export function* gridsOf(count: number, corner: Corner, size_mm: number, more: number): Generator<number, Grids> {
   const { long, high, apex } = yield* shared(shapesOf(count, corner), 0, 0.5);
@@ -105,7 +105,7 @@ export function* gridsOf(count: number, corner: Corner, size_mm: number, more: n
 /** Weights of a facet's corners, beginning with the one opposite the longest side. */
 export type Weights = readonly [apex: number, from: number, to: number];
 
-/** A place in a cell: `u` and `v`, 0 to 1, are how far it is across the cell and up. A single row's is nearer its wide side. */
+/** Position in a cell, given fractions `u` across and `v` up, 0 to 1. A single row is sampled nearer its wide side. */
 export function placeIn({ columns, rows }: Grid, column: number, row: number, u: number, v: number): Weights {
   const up = rows === 1 ? (2 / 3) * v : (row + v) / rows;
   const across = (column + u) / columns;

@@ -15,7 +15,7 @@ function measuring(): { told: Told; job: Measuring } {
   return { told, job };
 }
 
-/** However busy the machine is. */
+/** Generous, for a busy machine. */
 const LATE = { timeout: 20_000 };
 
 afterEach(() => void vi.restoreAllMocks());
@@ -23,7 +23,7 @@ afterEach(() => void vi.restoreAllMocks());
 const cube = (): Derived => new Derived(box([0, 0, 0], [1, 1, 1]));
 
 it("measures a model once, however often it is shown", async () => {
-  // No time passes: on a busy machine even this would not be quick.
+  // Stops the clock: on a busy machine even this work would not be quick.
   vi.spyOn(performance, "now").mockReturnValue(0);
   const { told, job } = measuring();
   const of = cube();
@@ -60,7 +60,7 @@ it("gives up for another model, and when nobody wants to see it, and begins agai
 }, 30_000);
 
 it("tells how far long work is, until it is done", async () => {
-  // Each look at the clock takes 10 ms: a small model is long work.
+  // Each reading of the clock advances it by 10 ms, so that a small model is long work.
   let now_ms = 0;
   vi.spyOn(performance, "now").mockImplementation(() => (now_ms += 10));
   const { told, job } = measuring();

@@ -1,22 +1,22 @@
-/** Measures the walls of the model on show, once they are to be seen. */
+/** Measures the walls of the current model once they are to be shown. */
 import type { Derived } from "../steps/derived.js";
 import type { Walls } from "./thickness.js";
 
-/** Shorter work reports no progress, ms: it would only flash. */
+/** Shorter work reports no progress, ms, which would only flash. */
 const SOON_MS = 700;
 
 export interface MeasuringReports {
-  /** Progress, 0 to 1; null when there is nothing under way. */
+  /** Progress, 0 to 1; null when idle. */
   progress(progress: number | null): void;
-  /** The walls of the last model that was wanted; null until they are measured. */
+  /** Walls of the last model requested; null until measured. */
   walls(walls: Walls | null): void;
 }
 
 export class Measuring {
   readonly #reports: MeasuringReports;
-  /** What was wanted last. */
+  /** The last model requested. */
   #of: Derived | null = null;
-  /** Of which the walls are known, or being measured. */
+  /** The model whose walls are known or being measured. */
   #measured: Derived | null = null;
   #walls: Walls | null = null;
 
@@ -24,7 +24,7 @@ export class Measuring {
     this.#reports = reports;
   }
 
-  /** Wants the walls of a model, or of none. Those of the last model are kept until there is another. */
+  /** Requests the walls of a model, or none. Those of the last model are cached until another is requested. */
   want(derived: Derived | null): void {
     if (derived === this.#of) return;
     this.#of = derived;
@@ -33,7 +33,7 @@ export class Measuring {
     this.#reports.progress(null);
   }
 
-  /** Forgets the walls of the last model: there is another. */
+  /** Forgets the walls of the last model, which has been replaced. */
   forget(): void {
     this.#measured?.cancelWalls();
     this.#of = this.#measured = this.#walls = null;
@@ -49,7 +49,7 @@ export class Measuring {
     const walls = await derived.walls((progress) => {
       if (derived === this.#of && performance.now() - began > SOON_MS) this.#reports.progress(progress);
     });
-    // Given up, or another model's by now.
+    // Cancelled, or another model was requested.
     if (walls === null || derived !== this.#measured) return;
     this.#walls = walls;
     this.#reports.progress(null);

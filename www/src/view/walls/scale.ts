@@ -1,4 +1,4 @@
-/** The scale of colours for the thickness of walls. */
+/** Colour scale for wall thickness. */
 
 /** The end of the scale as a multiple of the limit: thick walls need not be told apart. */
 const FULL = 10;
@@ -7,9 +7,9 @@ const FULL = 10;
 const FULL_MM = 4;
 
 export interface WallScale {
-  /** What is thinner than this is marked, mm. */
+  /** Thinner walls are marked, mm. */
   readonly least_mm: number;
-  /** The upper end of the scale of colours, mm: all that is thicker looks the same. */
+  /** Upper end of the colour scale, mm; thicker walls look the same. */
   readonly full_mm: number;
 }
 

@@ -8,17 +8,17 @@ type Point = readonly [number, number, number];
 
 const known = new WeakMap<Float32Array, Walls>();
 
-/** Few enough samples that tests are quick. */
+/** Few enough samples for quick tests. */
 const MORE = 6000;
 
-/** Measured once a model. */
+/** Measures each model once. */
 function measure(positions: Float32Array): Walls {
   const walls = known.get(positions) ?? finished(wallsOf(solid(positions), MORE));
   known.set(positions, walls);
   return walls;
 }
 
-/** The thicknesses of the facets for which `isMeant` of their normals, and of their middles from the middle of the bounds. */
+/** Thicknesses of the facets selected by `isMeant`, given the normal, and the centre relative to the centre of the bounds. */
 function of(positions: Float32Array, isMeant: (normal: Point, middle: Point) => boolean): number[] {
   const { grids, thickness_mm } = measure(positions);
   const { points, topology } = solid(positions);
@@ -50,7 +50,7 @@ function expectAll(values: readonly number[], wanted_mm: number, tolerance_mm = 
   expect(most(values)).toBeLessThan(wanted_mm + tolerance_mm);
 }
 
-/** An upright prism of so many sides, whose flats are `radius` from its axis. */
+/** Upright prism whose flats are `radius` from its axis. */
 function cylinder(radius: number, height: number, sides: number): Float32Array {
   const far = radius / Math.cos(Math.PI / sides);
   const rim = (i: number, z: number): Point => [far * Math.cos((2 * Math.PI * i) / sides), far * Math.sin((2 * Math.PI * i) / sides), z];
@@ -93,7 +93,7 @@ describe("the thickness of", () => {
   it("a ball is nearly its diameter everywhere", () => {
     const around = 96;
     const values = of(ball(5, around), () => true);
-    // The farthest that a ray against the normal of a flat facet passes by the middle is half its side.
+    // A ray against the normal of a flat facet passes the centre at no more than half its side.
     const side = (2 * Math.PI * 5) / around;
     expect(least(values)).toBeGreaterThan(2 * Math.sqrt(25 - side ** 2) - 0.05);
     expect(most(values)).toBeLessThanOrEqual(10);
@@ -117,7 +117,7 @@ describe("the thickness of", () => {
   it("bodies that overlap or touch is that of all together", () => {
     expectAll(of(together(box([0, 0, 0], [10, 10, 10]), box([6, 0, 0], [16, 10, 10])), ([x], [at]) => x ** 2 > 0.5 && Math.abs(at) > 7.9), 16);
     expectAll(of(together(box([0, 0, 0], [10, 10, 10]), box([10, 0, 0], [16, 10, 10])), ([x], [at]) => x ** 2 > 0.5 && Math.abs(at) > 7.9), 16);
-    // One of them twice, and one within another.
+    // One body twice, and one within another.
     expectAll(of(together(box([0, 0, 0], [10, 10, 10]), box([0, 0, 0], [10, 10, 10]), box([3, 3, 3], [5, 5, 5])), ([x], [at]) => x ** 2 > 0.5 && Math.abs(at) > 4.9), 10);
   });
 
@@ -132,7 +132,7 @@ describe("the thickness of", () => {
   });
 
   it("a large facet changes in the middle of it", () => {
-    // A table: its top is two facets, 2 mm thick over nothing, and 12 mm over each leg.
+    // A table: its top is two facets, 2 mm thick between the legs and 12 mm above each.
     const table = together(box([0, 0, 10], [30, 30, 12]), box([0, 0, 0], [5, 30, 10]), box([25, 0, 0], [30, 30, 10]));
     const { grids, thickness_mm } = measure(table);
     const { points, topology } = solid(table);
@@ -183,7 +183,7 @@ it("is the same each time, and reports its progress", () => {
 });
 
 it("agrees with steps through boxes, where they are many", () => {
-  // Struts across each other, each of its own width.
+  // Crossed struts of different widths.
   const struts = Array.from({ length: 24 }, (_, i) => {
     const [at, width] = [1.37 * i, 0.3 + 0.05 * i];
     return i % 2 === 0 ? box([at, 0, 0], [at + width, 40, 3]) : box([0, at, 1], [40, at + width, 4]);
@@ -207,7 +207,7 @@ it("agrees with steps through boxes, where they are many", () => {
     const cell = (grids[2 * facet] ?? 0) + Math.floor(grid.columns / 3);
     const weights = placeIn(grid, Math.floor(grid.columns / 3), 0, 0.517, 0.477);
     const p = [0, 1, 2].map((axis) => weights.reduce((sum, weight, i) => sum + weight * (at(facet, (grid.apex + i) % 3)[axis] ?? 0), 0));
-    // Along an axis, in steps: the boxes are the oracle.
+    // Marches along an axis in steps; the boxes are the oracle.
     const n = [0, 1, 2].map((axis) => {
       const flat = [0, 1, 2].every((corner) => at(facet, corner)[axis] === at(facet, 0)[axis]);
       const [low = 0] = boxes[Math.floor(facet / 12)]?.[axis] ?? [];

@@ -1,4 +1,4 @@
-/** How thick the solid is under each part of a model's surface: straight in, against the normal, to where it ends. */
+/** Thickness of the solid under each part of a model's surface, measured inwards along the normal. */
 import { Box3, Vector3 } from "three";
 import type { Solid } from "../steps/contours.js";
 import { slabsOf, type Axis } from "../steps/slabs.js";
@@ -7,28 +7,28 @@ import { Crossings } from "./crossings.js";
 import { gridsOf, placeIn, unpacked, type Corner } from "./grid.js";
 
 export interface Walls {
-  /** Where the samples of each facet are: see `Grids`. */
+  /** Grids of the samples on each facet: see `Grids`. */
   readonly grids: Uint32Array;
-  /** Thickness at each sample, mm in the file; `Infinity` where no way out was found, since the mesh has a hole. */
+  /** Thickness at each sample, mm in the file; `Infinity` if the ray found no exit because of a hole in the mesh. */
   readonly thickness_mm: Float32Array;
 }
 
-/** Fractions of the progress: for the hierarchies, and for the places of samples. */
+/** Fractions of the progress: for the hierarchies, and for placing samples. */
 const SORTING = 0.1;
 const PLACING = 0.15;
 
-/** Facets in a hierarchy: it takes two frames to build, but a ray goes through several slabs. */
+/** Facets per hierarchy: it takes two frames to build, but a ray crosses several slabs. */
 const SLAB_FACETS = 32_768;
 
-/** Samples there may be besides one a facet: about a second's work. */
+/** Maximum number of samples in addition to one per facet: about a second's work. */
 const MORE_SAMPLES = 1 << 17;
 
 /** Rays between two yields. */
 const BLOCK = 32;
 
 /**
- * Places in a cell, the next where the first gave nothing, as happens where a ray meets an edge. In the middle of cells, rays through
- * symmetrical models would do so all the time.
+ * Positions in a cell to try in turn, since a ray that meets an edge gives no result. At the centre of cells, rays through symmetrical
+ * models would often do so.
  */
 const PLACES = [
   [0.517, 0.477],
@@ -37,9 +37,10 @@ const PLACES = [
 ] as const;
 
 /**
- * Measures how thick a model is. A facet of a body that is inside out has its solid on the other side. Yields its progress, 0 to 1.
- * Cost: about ten microseconds a sample.
- * @param more samples there may be besides one a facet
+ * Measures the wall thickness of a model. A facet of an inverted body has its solid on the other side. Yields its progress, 0 to 1. Cost:
+ * about ten microseconds per sample.
+ *
+ * @param more maximum number of samples in addition to one per facet
  */
 export function* wallsOf(solid: Solid, more = MORE_SAMPLES): Generator<number, Walls> {
   const { points, topology } = solid;
@@ -47,7 +48,7 @@ export function* wallsOf(solid: Solid, more = MORE_SAMPLES): Generator<number, W
   const count = corner.length / 3;
   const extent = new Box3().setFromArray(points).getSize(new Vector3());
   const size_mm = Math.max(extent.x, extent.y, extent.z, 0);
-  // Across the longest side: a ray then meets few slabs.
+  // Across the longest side, so that a ray meets few slabs.
   const axis: Axis = extent.x === size_mm ? 0 : extent.y === size_mm ? 1 : 2;
   const slabs = yield* shared(slabsOf(solid, axis, SLAB_FACETS), 0, SORTING);
   const crossings = new Crossings(points, slabs, size_mm);
