@@ -1,10 +1,9 @@
 /**
- * `<cusp-view>`: the model in three dimensions, coloured by layer thickness, or as it will be printed, with the distances from
- * the model.
+ * `<cusp-view>`: the model in 3-D, coloured by layer thickness, or as printed, with distances from the model.
  *
- * A pure function of its properties. It shows a rotation made by the user at once, without waiting for a plan: a plan that
- * comes later only changes the colours. Import this module lazily, since it loads three.js. The importer defines the
- * element, since a bundler may leave out a module's side effects.
+ * A pure function of its properties. It shows a rotation by the user at once, without waiting for a plan: a later plan only changes the
+ * colours. Import this module lazily, since it loads three.js. The importer defines the element, since a bundler may drop a module's side
+ * effects.
  */
 import type { PropertyValues, TemplateResult } from "lit";
 import { Approach } from "./scene/approach.js";
@@ -44,7 +43,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #derived: Derived | null = null;
   #life = new AbortController();
   #frame: Frame | null = null;
-  /** The camera's rotation in the last `cusp-camera`. */
+  /** Camera rotation in the last `cusp-camera`. */
   #camera: Rotation | null = null;
   #isHeld = false;
   #approach: Approach | null = null;
@@ -53,7 +52,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #painting: Painting | null = null;
   #moving: Moving | null = null;
   #placing: Placing | null = null;
-  /** The rotation that the rings have reached while they are dragged. */
+  /** Current rotation while the rings are dragged. */
   #turned: Rotation | null = null;
   #unsaid: RotateDetail | null = null;
   readonly #printed = new Printed({
@@ -102,12 +101,12 @@ export class CuspView extends elementWith(PROPERTIES) {
 
   /** Updates the scene before rendering, since the template shows the size that the scene computes. */
   override willUpdate(changed: PropertyValues<this>): void {
-    // While the rings are dragged only the pointer turns the model, not a late answer to an earlier `cusp-rotate`.
+    // While the rings are dragged, only the pointer turns the model, not a late answer to an earlier `cusp-rotate`.
     if (this.#isHeld && this.#turned !== null) this.rotation = this.#turned;
     if (this.#scene !== null) this.#show(this.#scene, (name) => changed.has(name));
   }
 
-  /** Returns to the first view of the whole model. */
+  /** Returns to the initial view of the whole model. */
   reset(): void {
     this.#scene?.cameras.reset();
   }
@@ -128,7 +127,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     const holder = this.renderRoot.querySelector<HTMLElement>(".scene");
     const context = contextOf(canvas);
     if (holder === null || context === null) {
-      // A browser that had one may have another later.
+      // A lost context may come back; only a missing one is permanent.
       if (this.lost) return;
       this.broken = true;
       const { unavailable: message } = this.texts;
@@ -178,7 +177,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     moving.watch(holder, (event) => placeIn(canvas, event), life.signal);
     painting.watch(holder, (event) => placeIn(canvas, event), life.signal);
     sharePage(holder, () => this.shadowRoot?.activeElement === holder, life.signal);
-    // At its start a transition may still have the colour from before.
+    // When it starts, a transition may still have the old colour.
     for (const type of ["transitionrun", "transitionend"]) this.renderRoot.addEventListener(type, this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
     const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight);
@@ -188,7 +187,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#recolour();
     this.#show(scene, () => true);
     resize();
-    // The size and the grid were not known when the view was rendered.
+    // The view was rendered before the size and the grid were known.
     this.requestUpdate();
   }
 
@@ -257,7 +256,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     scene.invalidate();
   }
 
-  /** How long the camera takes to another place: no time where frames take long, since it would be a few jumps. */
+  /** Duration of camera flights, ms; 0 on slow renderers, where a flight would be a few jumps. */
   get #flight_ms(): number {
     return this.#scene?.isSmooth === true && !this.#reducedMotion.matches ? FLIGHT_MS : 0;
   }
@@ -265,7 +264,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #near(): void {
     const { near, aligned, positions, z_mm } = this;
     const isCalm = this.#reducedMotion.matches;
-    // An aligned view has another camera, so nobody would see the way back.
+    // Without animation if aligned: that view has another camera, so nobody sees the flight.
     if (!near) this.#approach?.leave(isCalm || aligned);
     else if (!aligned && positions !== null && z_mm.length >= 2) this.#approach?.go({ positions, z_mm }, isCalm);
   }
@@ -281,14 +280,14 @@ export class CuspView extends elementWith(PROPERTIES) {
     return this.aligned && inset !== null ? { heights_mm: this.heights_mm, inset } : null;
   }
 
-  /** Finds the distinct points, which make turning faster, before the first turn. */
+  /** Finds the distinct points before the first turn, which they speed up. */
   async #prepare(): Promise<void> {
     const derived = this.#derived;
     const points = await derived?.points();
     if (points != null && derived === this.#derived) this.#scene?.model.setPoints(points);
   }
 
-  /** Updates the heat map of these facets; null: of all. */
+  /** Updates the heat map of these facets; null: of all facets. */
   #heat(facets: Iterable<number> | null): void {
     if (this.#scene === null || this.look !== "weights") return;
     const { heat, saliency, least } = this;
@@ -323,13 +322,13 @@ export class CuspView extends elementWith(PROPERTIES) {
     return this.texts.layer(layer, band[0], this.thickness_mm[layer] ?? band[1] - band[0]);
   }
 
-  /** Requests new stair steps if they are to be shown, but not while the model is being turned. */
+  /** Requests new stair steps if the look needs them, except while the model is being turned. */
   #print(): void {
     const { rotation, scale, z_mm, look } = this;
     const derived = this.#derived;
     const measures = look === "distance";
     const isWanted = (look === "printed" || measures) && z_mm.length >= 2 && !this.#isHeld;
-    // Steps are made where the model stands on the plate, and lifted with it.
+    // Steps are computed on the plate, and then lifted with the model.
     const own_mm = this.lift_mm === 0 ? z_mm : z_mm.map((z) => z - this.lift_mm);
     this.#printed.want(derived !== null && isWanted ? { derived, rotation, scale, z_mm: own_mm } : null, measures);
   }
@@ -358,7 +357,7 @@ export class CuspView extends elementWith(PROPERTIES) {
 
   readonly #key = (event: KeyboardEvent): void => {
     if (event.key === "Escape" && this.#placing?.cancel() === true) {
-      // Neither a task nor a finding ends with the drag.
+      // Escape ends the drag only, not a task or the choice of a finding.
       event.stopPropagation();
       return;
     }
@@ -375,7 +374,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     else if (action.do === "lock-point") this.#placing?.edit("lock");
     else if (action.do === "turn-model") this.#rotate(turned(this.rotation, action.axis, action.degrees), true);
     else if (action.do === "undo-stroke" || action.do === "redo-stroke") {
-      // The page's own undo must not react too.
+      // Keeps the page's own undo from reacting.
       event.stopPropagation();
       if (action.do === "undo-stroke") this.undo();
       else this.redo();
@@ -383,7 +382,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     else this.#clicked([this.clientWidth / 2, this.clientHeight / 2]);
   };
 
-  /** No damping where frames take long: it would go on for seconds. */
+  /** Disables damping on slow renderers, where it would last for seconds. */
   readonly #damp = (): void => {
     this.#scene?.cameras.setDamping(this.#scene.isSmooth && !this.#reducedMotion.matches);
   };
@@ -397,7 +396,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#scene?.setTheme(themeOf({ ink: probe("ink"), accent: probe("accent"), bad: probe("bad") }));
   };
 
-  /** Updates what depends on the frame: the layer's label, and the events on camera and heights. */
+  /** Updates everything that depends on the frame: the layer's label, and the events on camera and heights. */
   #drawn(frame: Frame | null): void {
     const label = this.renderRoot.querySelector<HTMLElement>(".label");
     const band = this.positions === null ? null : this.#band();

@@ -3,25 +3,25 @@ import type { MoveDetail } from "./scene/moving.js";
 import type { Frame } from "./scene/cameras.js";
 import type { Rotation, Triple } from "./scene/pose.js";
 
-/** The model was turned, by the rings, by laying a face flat or by keyboard. The view shows it already. */
+/** The model was turned by the rings, by laying a face flat, or by keyboard. The view already shows it. */
 export interface RotateDetail {
   readonly rotation: Rotation;
-  /** False while it is still being turned. */
+  /** False during the turn. */
   readonly final: boolean;
 }
 
-/** The height under the pointer; nulls when it has left the model. */
+/** Height under the pointer; nulls when it has left the model. */
 export interface HeightDetail {
   readonly z_mm: number | null;
-  /** Counted from 0; null also without a plan. */
+  /** Index of the layer, from 0; also null without a plan. */
   readonly layer: number | null;
 }
 
 /** Weights were painted, or a stroke was undone or redone. */
 export interface PaintDetail {
-  /** 0 to 1 a facet; never changed later. */
+  /** Weight of each facet, 0 to 1; never modified later. */
   readonly weights: Float32Array;
-  /** False while the stroke goes on. */
+  /** False during the stroke. */
   readonly final: boolean;
   readonly canUndo: boolean;
   readonly canRedo: boolean;
@@ -30,14 +30,14 @@ export interface PaintDetail {
 /** A place on the model's surface, in the frame of `points`. */
 export interface SurfacePlace {
   readonly at_mm: Triple;
-  /** The way into the model there, a unit vector. */
+  /** Direction into the model, a unit vector. */
   readonly inward: Triple;
 }
 
-/** What somebody wants with the points. The view shows it when `points` and `point` say so. */
+/** An edit of the points requested by the user. The view shows it once `points` and `point` change. */
 export type PointDetail =
   | { readonly do: "add"; readonly to: SurfacePlace }
-  /** Once it is released. */
+  /** Sent on release. */
   | { readonly do: "move"; readonly place: number; readonly to: SurfacePlace }
   | { readonly do: "select"; readonly place: number | null }
   | { readonly do: "remove" | "lock"; readonly place: number };
@@ -50,18 +50,18 @@ export interface ViewErrorDetail {
 export interface ViewEvents {
   "cusp-rotate": CustomEvent<RotateDetail>;
   "cusp-height": CustomEvent<HeightDetail>;
-  /** The layer that was clicked, counted from 0. */
+  /** Index of the layer clicked, from 0. */
   "cusp-layer": CustomEvent<number>;
-  /** Where heights appear, CSS pixels from the view's upper edge; null while the view is not aligned. */
+  /** Positions of heights, CSS pixels from the view's upper edge; null while the view is not aligned. */
   "cusp-frame": CustomEvent<Frame | null>;
-  /** True if the plot is beside the view, so that it could be aligned; fired when that has changed. */
+  /** True if the plot is next to the view, which could align with it; fired on changes. */
   "cusp-beside": CustomEvent<boolean>;
-  /** Rotation of the camera: turns its right, up and backward axes into the plate's frame. */
+  /** Camera rotation: turns its right, up and backward axes into the plate's frame. */
   "cusp-camera": CustomEvent<Rotation>;
   "cusp-paint": CustomEvent<PaintDetail>;
-  /** A copy was moved over the plate. The view shows it when `copies` say so. */
+  /** A copy was moved over the plate. The view shows it once `copies` change. */
   "cusp-move": CustomEvent<MoveDetail>;
-  /** A copy was pressed: its place. */
+  /** Index of the copy pressed. */
   "cusp-select": CustomEvent<number>;
   /** A point was added, moved, selected, removed or locked. */
   "cusp-point": CustomEvent<PointDetail>;

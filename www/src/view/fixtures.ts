@@ -1,4 +1,4 @@
-/** Solids for tests, with cross-sections known in closed form. Nine numbers a facet, mm, counter-clockwise from outside. */
+/** Solids for tests, with cross-sections known in closed form. Nine numbers per facet, mm, counter-clockwise from outside. */
 
 type Point = readonly [number, number, number];
 
@@ -64,7 +64,7 @@ export function together(...solids: readonly Float32Array[]): Float32Array {
   return Float32Array.from(solids.flatMap((solid) => [...solid]));
 }
 
-/** The same facets, facing the other way. */
+/** The same facets with reversed orientation. */
 export function insideOut(positions: Float32Array): Float32Array {
   const out = positions.slice();
   for (let at = 0; at < out.length; at += 9) {

@@ -85,11 +85,11 @@ test("front and back show each direction's colour in its place, and nothing outs
   };
   const front = picture("front");
   const behind = picture("back");
-  // From the front: +x is right, +z up, -y towards the viewer.
+  // In the front view, +x is right, +z up, and -y towards the viewer.
   expect(front(0, 0)).toEqual([0, 0, 200, 255]);
   expect(front(0.9, 0)[0]).toBeGreaterThan(150);
   expect(front(0, 0.9).slice(0, 2).every((it) => it > 150)).toBe(true);
-  // From behind: +x is left.
+  // In the rear view, +x is left.
   expect(behind(-0.9, 0)[0]).toBeGreaterThan(150);
   expect(behind(0.9, 0)[1]).toBeGreaterThan(150);
   expect(behind(0, 0)[3]).toBe(0);

@@ -1,36 +1,36 @@
 /**
- * The Gaussian sphere: each of its points is a direction and has the colour of the nearest sample. It is drawn as two
- * discs, one seen from the front and one from behind.
+ * The Gaussian sphere: each point is a direction, with the colour of the nearest sample. Drawn as two discs, from the front and from
+ * behind.
  */
 import type { Rgb } from "./legend/palette.js";
 import type { Rotation, Triple } from "./scene/pose.js";
 import { back, turn } from "./scene/turn.js";
 
-/** Cells along a side of the map of nearest directions, an octahedron unfolded into a square. */
+/** Cells per side of the map of nearest directions, an octahedron unfolded into a square. */
 const MAP_SIDE = 64;
-/** Neighbours kept of each direction, one of which may be nearer than it at the border of a cell of the map. */
+/** Neighbours stored per direction; near the border of a map cell, one of them may be nearer. */
 const NEIGHBOURS = 8;
 
-/** Which of the two pictures. */
+/** Side from which the sphere is seen. */
 export type Side = "front" | "back";
 
-/** A place on a picture: from its middle, to the right and upwards, in radii. */
+/** Position on a picture: offset from its centre, in radii. */
 export type Place = readonly [right: number, up: number];
 
-/** The direction seen at a place of a picture, in the viewer's frame: right, up, towards the viewer; or `null`. */
+/** Direction seen at a position of a picture, in the viewer's frame: right, up, towards the viewer; null outside the disc. */
 export function seenAt([right, up]: Place, side: Side): Triple | null {
   const deep = 1 - right * right - up * up;
   if (deep < 0) return null;
-  // Seen from behind, left and right are swapped.
+  // From behind, left and right are swapped.
   return side === "front" ? [right, up, Math.sqrt(deep)] : [-right, up, -Math.sqrt(deep)];
 }
 
-/** Where a direction of the viewer's frame is seen. */
+/** Side and position at which a direction of the viewer's frame is seen. */
 export function placeOf([x, y, z]: Triple): { side: Side; place: Place } {
   return z >= 0 ? { side: "front", place: [x, y] } : { side: "back", place: [-x, y] };
 }
 
-/** Finds the nearest of a set of directions. */
+/** Finds the nearest of a set of directions, by a map and a climb between neighbours. */
 export class Nearest {
   readonly #directions: Float64Array;
   readonly #map = new Uint16Array(MAP_SIDE * MAP_SIDE);
@@ -50,7 +50,7 @@ export class Nearest {
     }
   }
 
-  /** The index of the direction nearest to a unit vector. */
+  /** Index of the direction nearest to a unit vector. */
   at(x: number, y: number, z: number): number {
     const sum = Math.abs(x) + Math.abs(y) + Math.abs(z);
     let u = x / sum;
@@ -114,7 +114,7 @@ export class Nearest {
   }
 }
 
-/** The direction at a place of the unfolded octahedron, both coordinates from -1 to 1. */
+/** Direction at a position of the unfolded octahedron, both coordinates from -1 to 1. */
 function unfolded(u: number, v: number): Triple {
   const z = 1 - Math.abs(u) - Math.abs(v);
   const [x, y] = z >= 0 ? [u, v] : [(1 - Math.abs(v)) * (u < 0 ? -1 : 1), (1 - Math.abs(u)) * (v < 0 ? -1 : 1)];
@@ -122,14 +122,14 @@ function unfolded(u: number, v: number): Triple {
   return [x / length, y / length, z / length];
 }
 
-/** How much darker the rim is than the middle: a disc looks like a ball, yet its colours still match their scale. */
+/** Darkening of the rim: enough for a disc to look like a ball, yet its colours still match their scale. */
 const RIM = 0.16;
 
 /**
- * Draws one picture into red, green, blue and alpha of `side_px` by `side_px` pixels.
+ * Draws one picture as RGBA of `side_px` × `side_px` pixels.
  *
  * @param facing turns directions into the viewer's frame
- * @param colours of each direction; null: transparent
+ * @param colours colour of each direction; null: transparent
  */
 export function drawSphere(
   pixels: Uint8ClampedArray,
@@ -151,7 +151,7 @@ export function drawSphere(
       const at = 4 * (row * side_px + column);
       const across = (column + 0.5 - radius) / radius;
       const out = across * across + up * up;
-      // The rim is softened over the width of a pixel.
+      // Antialiases the rim over one pixel.
       const inside = (1 - Math.sqrt(out)) * radius + 0.5;
       if (inside <= 0) {
         pixels[at + 3] = 0;

@@ -1,4 +1,4 @@
-/** Elements that declare each of their properties once: its name, its type, its initial value, and who sets it. */
+/** Elements that declare each property once: its name, type, initial value, and whether the user or the element sets it. */
 import { LitElement, type PropertyDeclaration } from "lit";
 
 export interface Property<Value> {
@@ -6,12 +6,12 @@ export interface Property<Value> {
   readonly declaration: PropertyDeclaration;
 }
 
-/** A property that the element's user sets, never as an attribute. */
+/** A property set by the element's user, never as an attribute. */
 export function given<Value>(first: Value, hasChanged?: (value: unknown, before: unknown) => boolean): Property<Value> {
   return { first, declaration: { attribute: false, ...(hasChanged !== undefined && { hasChanged }) } };
 }
 
-/** State that only the element sets. */
+/** State set only by the element. */
 export function own<Value>(first: Value): Property<Value> {
   return { first, declaration: { state: true } };
 }
@@ -20,10 +20,10 @@ type List = Readonly<Record<string, Property<unknown>>>;
 
 type Values<L extends List> = { -readonly [Name in keyof L]: L[Name] extends Property<infer Value> ? Value : never };
 
-/** The class to extend: `LitElement` with the listed properties. */
+/** Base class: `LitElement` with the listed properties. */
 export type ElementWith<L extends List> = Pick<typeof LitElement, keyof typeof LitElement> & (new () => LitElement & Values<L>);
 
-/** @param list initial values are shared by all elements of the class, so they must not be changed in place */
+/** @param list initial values are shared by all elements of the class and must not be modified in place */
 export function elementWith<L extends List>(list: L): ElementWith<L> {
   const each = Object.entries(list);
   class Element extends LitElement {

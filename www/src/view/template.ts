@@ -9,14 +9,14 @@ type Properties = Pick<
   "texts" | "broken" | "lost" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
 >;
 
-/** Facts about the scene; defaults until it exists. */
+/** State of the scene; defaults until it exists. */
 export interface Known {
   readonly size_mm: readonly [number, number, number];
   readonly step_mm: number;
   /** Describes the selected layer; empty if there is none. */
   readonly layerWords: string;
   keyed(event: KeyboardEvent): void;
-  /** Asks for another WebGL context. */
+  /** Requests another WebGL context. */
   again(): void;
 }
 
@@ -56,10 +56,10 @@ export function template(view: Properties, { size_mm, step_mm, layerWords, keyed
   `;
 }
 
-/** Returns true if the heights are those of a chart, or would be. */
+/** Returns true if the view's heights are aligned with a chart, or would be with one. */
 const isAligned = ({ aligned, isBeside }: Properties): boolean => aligned && isBeside !== false;
 
-/** The progress of the work under way, if there is any. */
+/** Progress of the current work, if any. */
 function working({ texts, building, measuring, probing }: Properties): TemplateResult | typeof nothing {
   const part = building ?? measuring ?? probing;
   if (part === null) return nothing;
@@ -70,10 +70,10 @@ function working({ texts, building, measuring, probing }: Properties): TemplateR
   </div>`;
 }
 
-/** The colour scale of the current look, if it has one. */
+/** Colour scale of the current look, if it has one. */
 function scale(view: Properties): TemplateResult | typeof nothing {
   const { texts, positions, thickness_mm, layer, limits, look, palette, isBeside, greatest_mm } = view;
-  // A chart beside the view has a scale of its own.
+  // A neighbouring chart has its own scale.
   const showsLegend = view.showsLegend && !(isAligned(view) && isBeside === true);
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
   if (look === "distance") return greatest_mm === null ? nothing : distanceLegend(greatest_mm, texts);

@@ -1,4 +1,4 @@
-/** All texts of the view. They format their own numbers: the view itself knows no language. */
+/** All texts of the view. They format their own numbers, since the view itself has no language. */
 
 import type { Tool } from "./scene/keys.js";
 
@@ -9,9 +9,9 @@ export interface ViewTexts {
   readonly kind: string;
   /** Keyboard help for each tool. */
   readonly keys: Readonly<Record<Tool, string>>;
-  /** Describes the model on show. */
+  /** Describes the model shown. */
   readonly state: (size_mm: readonly [number, number, number], layers: number) => string;
-  /** Stands in for that when no model is on show. */
+  /** Replaces `state` when no model is shown. */
   readonly empty: string;
   /** Heading of the colour scale, with its unit. */
   readonly legend: string;
@@ -19,11 +19,11 @@ export interface ViewTexts {
   readonly heat: string;
   /** Heading of the colour scale of distances from the model, with its unit. */
   readonly distance: string;
-  /** Heading of the colour scale of walls, with its unit. */
+  /** Heading of the colour scale of wall thickness, with its unit. */
   readonly walls: string;
-  /** Beside the mark of what is thinner than the limit. */
+  /** Label of the mark for walls thinner than the limit. */
   readonly thin: (least_mm: number) => string;
-  /** A thickness of walls on the colour scale, in millimetres without the unit. */
+  /** A wall thickness on the colour scale, in millimetres without the unit. */
   readonly wall: (thickness_mm: number) => string;
   /** Progress of measuring the walls. */
   readonly probing: (progress: number) => string;
@@ -39,9 +39,9 @@ export interface ViewTexts {
   readonly building: (progress: number) => string;
   /** Progress of measuring their distances from the model. */
   readonly measuring: (progress: number) => string;
-  /** Instead of the view where the browser has no WebGL. */
+  /** Message in place of the view if the browser has no WebGL. */
   readonly unavailable: string;
-  /** Over the view while the browser has taken its graphics away, with the name of the button that asks for others. */
+  /** Message while the WebGL context is lost, with the name of the button that requests another. */
   readonly lost: string;
   readonly again: string;
 }
@@ -53,7 +53,7 @@ const english = (digits: number): ((value: number) => string) => {
   return (value) => format.format(value);
 };
 
-/** From this thickness on, tenths of a µm are left out. */
+/** From this thickness on, tenths of a µm are omitted. */
 const WHOLE_FROM_UM = 100;
 
 const whole = english(0);

@@ -1,4 +1,4 @@
-/** The properties of the view, and the state that it renders. */
+/** Properties of the view, and the state that it renders. */
 import type { Heights, Inset } from "./scene/cameras.js";
 import { BRUSH } from "./paint/brush.js";
 import type { ViewPoint } from "./points/markers.js";
@@ -15,61 +15,61 @@ import { given, own } from "./properties.js";
 import type { Walls } from "./walls/thickness.js";
 
 export const PROPERTIES = {
-  /** Nine numbers a facet, mm, in the file's pose; a new array is a new model. */
+  /** Nine numbers per facet, mm, in the file's pose; a new array is a new model. */
   positions: given<Float32Array | null>(null),
-  /** Turns the model before it is put on the plate. Ignored while the model is being dragged by its rings. */
+  /** Rotates the model before it is placed on the plate. Ignored while the model is being dragged by its rings. */
   rotation: given<Rotation>(UPRIGHT),
   /** Factor applied to the file's lengths. */
   scale: given(1),
-  /** How far the model is above the plate, mm. */
+  /** Lift of the model above the plate, mm. */
   lift_mm: given(0),
-  /** Vertex positions of its supports, nine numbers a facet, mm from the plate; null without supports. */
+  /** Vertex positions of its supports, nine numbers per facet, mm, z from the plate; null without supports. */
   supports: given<Float32Array | null>(null),
-  /** Vertex positions of the walls of its void, likewise, which the tool `drains` shows; null if it is solid. */
+  /** Vertex positions of the walls of its void, likewise, shown by the tool `drains`; null for a solid model. */
   voids: given<Float32Array | null>(null),
-  /** The points that the tools `supports` and `drains` show and place. */
+  /** Points shown and placed by the tools `supports` and `drains`. */
   points: given<readonly ViewPoint[]>([]),
-  /** The place of the selected point. */
+  /** Index of the selected point. */
   point: given<number | null>(null),
   /** Layer boundaries from 0 to the top, mm; empty without a plan. */
   z_mm: given<readonly number[]>([]),
-  /** One for each layer. */
+  /** One per layer. */
   thickness_mm: given<readonly number[]>([]),
   /** Thicknesses at the ends of the colour scale, mm. */
   limits: given<readonly [number, number]>([0, 0]),
-  /** The selected layer, counted from 0. */
+  /** Index of the selected layer, from 0. */
   layer: given<number | null>(null),
-  /** Places that are marked; the first is turned to the viewer. */
+  /** Places to mark; the first is turned to the viewer. */
   marks: given<readonly Mark[]>([]),
-  /** The printer's build volume; without one the plate is a grid that fades out. */
+  /** The printer's build volume; without one, the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
-  /** The copies on the plate, of which the model is the one at `selected`; empty: it is alone in the middle. */
+  /** Copies on the plate; the model is the one at `selected`. Empty for a single model in the middle. */
   copies: given<readonly Copy[]>([]),
-  /** The place of the selected copy. */
+  /** Index of the selected copy. */
   selected: given<number | null>(null),
   look: given<Look>("thickness"),
   palette: given<PaletteName>("classic"),
   tool: given<Tool>("turn"),
   /**
-   * Looks from the front without perspective, so that a height is a row of pixels: see `cusp-frame`. Without effect while there
-   * is a plot, but not beside the view.
+   * Shows the front without perspective, so that a height is a row of pixels: see `cusp-frame`. No effect if there is a plot that is not
+   * next to the view.
    */
   aligned: given(false),
-  /** The heights shown when aligned; null for the whole model. */
+  /** Heights shown when aligned; null for the whole model. */
   heights_mm: given<Heights | null>(null),
-  /** What the view is aligned with: these heights extend from its lower to its upper edge. Its place is looked up in every frame. */
+  /** Element with which the view aligns: its lower and upper edge are the ends of `heights_mm`. Its position is read in every frame. */
   plot: given<HTMLElement | null>(null),
   /** Room above and below those heights when aligned without a plot. */
   inset: given<Inset>({ top_px: 12, bottom_px: 12 }),
-  /** True if the camera is near the largest stair steps of the side that faces the viewer. Needs a plan. */
+  /** True to move the camera near the largest stair steps on the side facing the viewer. Needs a plan. */
   near: given(false),
   /** Painted weight of each facet, 0 to 1; null: all 1. Ignored during a stroke. */
   weights: given<Float32Array | null>(null),
   /** Saliency of each facet, 0 to 1; null: all 1. */
   saliency: given<Float32Array | null>(null),
-  /** Which quantity the look `weights` shows. */
+  /** Quantity shown by the look `weights`. */
   heat: given<Heat>("paint"),
-  /** Least value of the product of weight and saliency, when that is shown. */
+  /** Minimum of the product of weight and saliency, if that is shown. */
   least: given(0),
   /** What is thinner than this is marked in the look `walls`, mm. */
   wall_mm: given(0),
@@ -78,15 +78,15 @@ export const PROPERTIES = {
   texts: given(ENGLISH),
   /** Progress of computing the stair steps, 0 to 1; null when idle. */
   building: own<number | null>(null),
-  /** Progress of measuring their distances from the model. */
+  /** Progress of measuring their distances from the model, likewise. */
   measuring: own<number | null>(null),
-  /** The largest of these distances, mm; null until they are measured. */
+  /** Largest of these distances, mm; null until measured. */
   greatest_mm: own<number | null>(null),
-  /** Progress of measuring how thick the model is. */
+  /** Progress of measuring the wall thickness, likewise. */
   probing: own<number | null>(null),
-  /** How thick the model is, in the file's lengths; null until it is measured. */
+  /** Wall thickness of the model, in the file's lengths; null until measured. */
   walls: own<Walls | null>(null),
-  /** True if the plot is beside the view; null without a plot. */
+  /** True if the plot is next to the view; null without a plot. */
   isBeside: own<boolean | null>(null),
   /** True if WebGL is missing. */
   broken: own(false),

@@ -4,16 +4,16 @@ import { HEAT_PALETTE } from "../paint/heat.js";
 import { gradient, placeOf, type PaletteName } from "./palette.js";
 import type { ViewTexts } from "../texts.js";
 
-/** Most ticks between the ends: the labels of more would overlap. */
+/** Maximum number of ticks between the ends; more labels would overlap. */
 const TICKS = 3;
 
 /** Round steps, times a power of ten. */
 const STEPS = [1, 2, 2.5, 5, 10];
 
-/** Least distance of a tick from the ends of the scale, as a fraction of the scale, so that no labels touch. */
+/** Minimum distance of a tick from the ends of the scale, as a fraction of it, to keep labels apart. */
 const CLEAR = 0.2;
 
-/** A few round thicknesses between the limits, clear of the ends, mm. */
+/** A few round thicknesses between the limits, away from the ends, mm. */
 export function ticks([least, greatest]: readonly [number, number]): number[] {
   const [from, to] = [1000 * least, 1000 * greatest];
   const span = to - from;
@@ -37,12 +37,12 @@ export interface LegendData {
   readonly texts: ViewTexts;
 }
 
-/** The ticks of the scale of weights: few enough for languages with a space before the per cent sign. */
+/** Ticks of the scale of weights: few enough for languages with a space before the per cent sign. */
 const WEIGHTS = [0, 0.5, 1];
 
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
-/** Sets styles as properties: a strict content security policy allows no style attributes. */
+/** Sets styles as properties, since a strict content security policy forbids style attributes. */
 export function legend({ palette, limits, marked_mm, texts }: LegendData): TemplateResult {
   const [least, greatest] = limits;
   const marks = greatest > least ? [least, ...ticks(limits), greatest] : [least];

@@ -1,6 +1,6 @@
 /**
- * Colours of layers by thickness. One table of 256 entries serves the shader, the legend and every chart, so that a
- * layer has the same colour wherever it is shown. In both palettes thin is warm and thick is cold.
+ * Layer colours by thickness. One table of 256 entries serves the shader, the legend and every chart, so that a layer has the same colour
+ * everywhere. In both palettes, thin is warm and thick is cold.
  */
 
 /** Red, green and blue, 0 to 255, sRGB. */
@@ -13,7 +13,7 @@ export type Rgb = readonly [number, number, number];
  */
 export type PaletteName = "classic" | "safe";
 
-/** Entries of a table. */
+/** Number of entries in a table. */
 export const PALETTE_SIZE = 256;
 
 const STOPS: Readonly<Record<PaletteName, readonly Rgb[]>> = {
@@ -41,7 +41,7 @@ const STOPS: Readonly<Record<PaletteName, readonly Rgb[]>> = {
   ],
 };
 
-/** Stops of a CSS gradient: enough to look the same as the table. */
+/** Number of stops of a CSS gradient: enough to look the same as the table. */
 const GRADIENT_STOPS = 18;
 
 const tables = new Map<PaletteName, Uint8Array>();
@@ -61,7 +61,7 @@ function filled(stops: readonly Rgb[]): Uint8Array {
   return out;
 }
 
-/** The palette as red, green, blue and alpha of each entry, thinnest first. Shared: do not write to it. */
+/** RGBA of each entry, thinnest first. Shared: do not write to it. */
 export function table(name: PaletteName): Uint8Array {
   let found = tables.get(name);
   if (found === undefined) {
@@ -71,21 +71,21 @@ export function table(name: PaletteName): Uint8Array {
   return found;
 }
 
-/** Position of a thickness between the limits: 0 the thinnest, 1 the thickest; clamped, and 0.5 if the limits are equal. */
+/** Position of a thickness between the limits: 0 the thinnest, 1 the thickest; clamped. 0.5 if the limits are equal. */
 export function placeOf(thickness_mm: number, limits: readonly [number, number]): number {
   const span = limits[1] - limits[0];
   const place = span > 0 ? (thickness_mm - limits[0]) / span : 0.5;
   return Number.isFinite(place) ? Math.min(1, Math.max(0, place)) : 0.5;
 }
 
-/** The colour at `place`, 0 the thinnest and 1 the thickest; clamped. */
+/** Colour at `place`, 0 the thinnest and 1 the thickest; clamped. */
 export function colourAt(name: PaletteName, place: number): Rgb {
   const colours = table(name);
   const at = 4 * Math.round(Math.min(1, Math.max(0, place)) * (PALETTE_SIZE - 1));
   return [colours[at] ?? 0, colours[at + 1] ?? 0, colours[at + 2] ?? 0];
 }
 
-/** The colour of a layer of this thickness, given the limits of the scale in mm. */
+/** Colour of a layer of this thickness, given the limits of the scale in mm. */
 export function ofThickness(name: PaletteName, thickness_mm: number, limits: readonly [number, number]): Rgb {
   return colourAt(name, placeOf(thickness_mm, limits));
 }

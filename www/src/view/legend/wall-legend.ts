@@ -1,4 +1,4 @@
-/** The colour scale of walls, from 0 to where all thicker ones look the same. */
+/** Colour scale of wall thickness, from 0 to the end beyond which all walls look the same. */
 import { css, html, type TemplateResult } from "lit";
 import { HEAT_PALETTE } from "../paint/heat.js";
 import { elementWith, given } from "../properties.js";
@@ -11,7 +11,7 @@ const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
 type Texts = Pick<ViewTexts, "walls" | "thin" | "wall">;
 
-/** @param wall_mm what is thinner than this is marked */
+/** @param wall_mm thinner walls are marked */
 export function wallLegend(wall_mm: number, texts: Texts): TemplateResult {
   const { least_mm, full_mm } = wallScale(wall_mm);
   return html`
@@ -29,7 +29,7 @@ export function wallLegend(wall_mm: number, texts: Texts): TemplateResult {
   `;
 }
 
-/** The stripes are those of the shader. */
+/** The stripes match those of the shader. */
 export const wallLegendStyles = css`
   .thin {
     background: repeating-linear-gradient(-45deg, rgb(199 13 41) 0 5px, #fff 5px 7.5px);

@@ -1,29 +1,26 @@
-/** What a brush does to the weights of facets. */
+/** Effect of a brush on the weights of facets. */
 import type { Topology } from "../scene/topology.js";
 
-/**
- * What the weights move towards. `more`: 1. `less`: 0. `erase`: the weight of unpainted facets. `soften`: the mean of the
- * adjacent facets.
- */
+/** Target of the weights. `more`: 1. `less`: 0. `erase`: the weight of unpainted facets. `soften`: the mean of the adjacent facets. */
 export type BrushMode = "more" | "less" | "erase" | "soften";
 
 export interface Brush {
   readonly mode: BrushMode;
-  /** Diameter of the sphere within which it paints, mm of the scaled model. */
+  /** Diameter of the brush's sphere, mm of the scaled model. */
   readonly size_mm: number;
-  /** How far the weight goes towards what the brush paints in one stroke, 0 to 1. */
+  /** Fraction of the way to the target in one stroke, 0 to 1. */
   readonly strength: number;
-  /** Takes the smooth region under the pointer instead of a sphere. */
+  /** If true, fills the smooth region under the pointer instead of a sphere. */
   readonly fills: boolean;
-  /** The bend at which a smooth region ends, degrees. */
+  /** Bend at which a smooth region ends, degrees. */
   readonly crease_deg: number;
-  /** Paints the other side as well, mirrored at the middle of the model's extent in x in its file. */
+  /** If true, also paints the other side, mirrored at the middle of the model's x extent in its file. */
   readonly mirrors: boolean;
   /** Weight of unpainted facets, 0 to 1. */
   readonly base: number;
 }
 
-/** By default all facets have full weight, and the brush lowers it. */
+/** By default, all facets have full weight, which the brush lowers. */
 export const BRUSH: Brush = {
   mode: "less",
   size_mm: 10,
@@ -34,16 +31,16 @@ export const BRUSH: Brush = {
   base: 1,
 };
 
-/** Fraction of the radius that is painted in full; beyond it the brush fades. */
+/** Fraction of the radius painted in full; beyond it the brush fades. */
 const CORE = 0.5;
 
-/** How strongly a brush of this radius paints at a distance: 1 around the middle, 0 from the rim on, smooth in between. */
+/** Strength of a brush of this radius at a distance: 1 around the centre, 0 from the rim on, smooth in between. */
 export function falloff(distance_mm: number, radius_mm: number): number {
   const place = Math.min(1, Math.max(0, (distance_mm / radius_mm - CORE) / (1 - CORE)));
   return 1 - place * place * (3 - 2 * place);
 }
 
-/** The weight that a brush paints towards; null if it depends on the adjacent facets. */
+/** Target weight of a brush; null if it depends on the adjacent facets. */
 export function targetOf({ mode, base }: Brush): number | null {
   return mode === "more" ? 1 : mode === "less" ? 0 : mode === "erase" ? base : null;
 }
@@ -60,7 +57,7 @@ export function meanBeside(weights: Float32Array, { twin }: Pick<Topology, "twin
   return count === 0 ? (weights[facet] ?? 0) : sum / count;
 }
 
-/** Changes the weight of unpainted facets: those that have exactly the old one get the new one. */
+/** Changes the weight of unpainted facets, which have exactly the old one. */
 export function rebased(weights: Float32Array, before: number, base: number): Float32Array {
   const old = Math.fround(before);
   return weights.map((weight) => (weight === old ? base : weight));

@@ -1,19 +1,19 @@
-/** What the heat map shows for each facet. */
+/** Values of the heat map for each facet. */
 import type { PaletteName } from "../legend/palette.js";
 
-/** The painted weight, the saliency, or the product of the two. */
+/** Value shown: the painted weight, the saliency, or the product of the two. */
 export type Heat = "paint" | "saliency" | "product";
 
 export interface HeatSource {
   readonly heat: Heat;
-  /** 0 to 1 a facet; null: all 1. */
+  /** Weight of each facet, 0 to 1; null: all 1. */
   readonly weights: Float32Array | null;
   readonly saliency: Float32Array | null;
-  /** Least value of the product. */
+  /** Minimum of the product. */
   readonly least: number;
 }
 
-/** The heat of a facet, 0 to 1. */
+/** Heat of a facet, 0 to 1. */
 export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: number): number {
   const paint = weights?.[facet] ?? 1;
   const standing = saliency?.[facet] ?? 1;
@@ -22,16 +22,16 @@ export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: nu
   return Math.max(least, paint * standing);
 }
 
-/** Yellow is the greatest weight, violet the least: lightness changes steadily, so it is legible with any colour vision. */
+/** Yellow is the greatest weight, violet the least: lightness changes steadily, so the map is legible with any colour vision. */
 export const HEAT_PALETTE: PaletteName = "safe";
 
-/** Texels per row of the heat texture, four facets a texel. Every WebGL 2 supports this width. */
+/** Texels per row of the heat texture, four facets per texel. Every WebGL 2 supports this width. */
 export const HEAT_ROW = 2048;
 
 /** Facets per row of that texture. */
 export const HEAT_ROW_FACETS = 4 * HEAT_ROW;
 
-/** Writes the heat of these facets, 0 to 255 each; returns their rows. */
+/** Writes the heat of these facets, 0 to 255 each; returns the affected rows. */
 export function packHeat(source: HeatSource, facets: Iterable<number>, into: Uint8Array): ReadonlySet<number> {
   const rows = new Set<number>();
   for (const facet of facets) {

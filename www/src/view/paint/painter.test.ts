@@ -23,7 +23,7 @@ function centroid({ positions }: Surface, facet: number): Triple {
   return [of(0), of(1), of(2)];
 }
 
-/** A dab on the middle of a facet. */
+/** A dab at the centre of a facet. */
 const on = (surface: Surface, facet: number, from: Triple | null = null): Dab => ({
   facet,
   point: centroid(surface, facet),
@@ -32,7 +32,7 @@ const on = (surface: Surface, facet: number, from: Triple | null = null): Dab =>
 
 const facetsOf = ({ positions }: Surface): number[] => [...Array(positions.length / 9).keys()];
 
-/** Least distance to points sampled from a facet, which the closed form must not exceed. */
+/** Minimum distance to points sampled from a facet, which the closed form must not exceed. */
 function strewn(positions: Float32Array, facet: number, [x, y, z]: Triple, steps: number): number {
   const at = (corner: number, axis: number): number => positions[9 * facet + 3 * corner + axis] ?? 0;
   let least = Infinity;
@@ -56,7 +56,7 @@ describe("regions", () => {
       const point: Triple = [6 * random() - 2, 6 * random() - 2, 6 * random() - 2];
       const [exact, near] = [distanceToFacet(positions, 0, point), strewn(positions, 0, point, steps)];
       expect(exact).toBeLessThanOrEqual(near + 1e-9);
-      // Samples are no farther apart than the longest side divided by their number.
+      // Samples are at most the longest side divided by `steps` apart.
       expect(near - exact).toBeLessThan(Math.sqrt(10) / steps);
     }
   });
@@ -138,7 +138,7 @@ describe("the brush", () => {
   it("leaves no gaps between two moves of the pointer", () => {
     const painter = new Painter(globe, null, 1);
     const thin = brush({ size_mm: 2 });
-    // A few radii along the equator.
+    // A path of a few radii along the equator.
     const [from, to] = [at(0), at(0.6)];
     painter.dab({ ...near(from), from: null }, thin, 1);
     painter.dab({ ...near(to), from }, thin, 1);
@@ -201,7 +201,7 @@ describe("the brush", () => {
 /** A point near the ball's equator. */
 const at = (angle: number): Triple => [RADIUS * Math.cos(angle), RADIUS * Math.sin(angle), 0.3];
 
-/** The facet nearest to a point, by a search of all. */
+/** The facet nearest to a point, by brute force. */
 function near(point: Triple): { facet: number; point: Triple } {
   const distance = (facet: number): number => distanceToFacet(globe.positions, facet, point);
   return { facet: facetsOf(globe).reduce((best, facet) => (distance(facet) < distance(best) ? facet : best)), point };

@@ -4,18 +4,18 @@ import type { Triple } from "../scene/pose.js";
 import { brushRegion, smoothRegion, type Surface, type Touched } from "./region.js";
 import { strokeOf, Strokes } from "./strokes.js";
 
-/** Where a brush touches a model, in the file's pose. */
+/** Contact of a brush with a model, in the file's pose. */
 export interface Dab {
   readonly facet: number;
   readonly point: Triple;
-  /** The point before in the same stroke, if the brush has not left the model since. */
+  /** Previous point of the same stroke, unless the brush has left the model since. */
   readonly from: Triple | null;
 }
 
-/** Largest distance between points of a path, as a fraction of the radius. */
+/** Maximum distance between points of a path, as a fraction of the radius. */
 const SPACING = 0.5;
 
-/** After a jump of more radii than this there is no path: anything may lie in between. */
+/** A jump of more radii than this makes no path, since anything may lie in between. */
 const JUMP = 8;
 
 /** The mirror image of a point in a plane of constant x, mm. */
@@ -33,11 +33,11 @@ function pathOf({ from, point }: Dab, radius_mm: number): Triple[] {
 }
 
 export class Painter {
-  /** 0 to 1 a facet. Changed in place. */
+  /** Weight of each facet, 0 to 1. Modified in place. */
   readonly weights: Float32Array;
   readonly strokes = new Strokes();
   readonly #surface: Surface;
-  /** Weights before the stroke under way, and how strongly the stroke covers each facet. */
+  /** Weights before the current stroke, and the stroke's coverage of each facet. */
   #before = new Map<number, number>();
   #cover = new Map<number, number>();
 
@@ -47,7 +47,7 @@ export class Painter {
     this.weights = weights?.slice() ?? new Float32Array(surface.positions.length / 9).fill(base);
   }
 
-  /** What the brush would paint there. `scale`: factor applied to the file's lengths. */
+  /** Facets that the brush would paint. `scale` is the factor applied to the file's lengths. */
   touched(dab: Dab, { fills, crease_deg, size_mm }: Brush, scale: number): Touched {
     const radius_mm = size_mm / 2 / scale;
     if (!fills) return brushRegion(this.#surface, dab.facet, pathOf(dab, radius_mm), radius_mm);
@@ -56,11 +56,11 @@ export class Painter {
   }
 
   /**
-   * Continues a stroke, or begins one; returns the facets whose weight changed. However often a stroke passes over a facet,
-   * it paints it once, as strongly as at its nearest pass; only softening accumulates.
+   * Continues or begins a stroke; returns the facets whose weight changed. A stroke paints a facet once, with the strength of its nearest
+   * pass, however often it passes over; only softening accumulates.
    */
   dab(dab: Dab, brush: Brush, scale: number): number[] {
-    // The region of a fill is the same from anywhere within it.
+    // A fill covers the same region from anywhere within it.
     if (brush.fills && brush.mode !== "soften" && this.#cover.has(dab.facet)) return [];
     const { facets, distances_mm } = this.touched(dab, brush, scale);
     const radius_mm = brush.size_mm / 2 / scale;
@@ -83,7 +83,7 @@ export class Painter {
     });
   }
 
-  /** Ends the stroke; returns whether it changed anything. */
+  /** Ends the stroke; returns true if it changed any weight. */
   end(): boolean {
     const before = this.#before;
     const stroke = strokeOf(before.keys(), (facet) => before.get(facet) ?? 0, this.weights);
@@ -93,7 +93,7 @@ export class Painter {
     return stroke !== null;
   }
 
-  /** Replaces the weights in one step that can be undone; returns whether any changed. */
+  /** Replaces the weights as one undo step; returns true if any changed. */
   replace(weights: Float32Array): boolean {
     const before = this.weights.slice();
     this.weights.set(weights);

@@ -10,21 +10,21 @@ import { extentOf, UPRIGHT, type Triple } from "../scene/pose.js";
 import { normalsOf, type Surface } from "./region.js";
 import type { Scene } from "../scene/scene.js";
 
-/** A mirrored point is painted if the model is at most this far from it, as a fraction of the brush's radius. */
+/** A mirrored point is painted if the model is within this distance of it, as a fraction of the brush's radius. */
 const MIRROR_WITHIN = 0.5;
 
 export interface PaintingReports {
-  /** The weights of these facets have changed; null: of any facet. */
+  /** Called when the weights of these facets have changed; null: of any facet. */
   changed(facets: readonly number[] | Uint32Array | null): void;
   painted(detail: PaintDetail): void;
 }
 
-/** What painting a model requires, computed when painting begins. */
+/** Data for painting a model, computed when painting begins. */
 interface Ready {
   readonly of: Derived;
   readonly painter: Painter;
   readonly raycast: Raycast;
-  /** Middle of the model's extent in x in its file, mm. */
+  /** Middle of the model's x extent in its file, mm. */
   readonly middle_x: number;
 }
 
@@ -36,7 +36,7 @@ export class Painting {
   #asked: Derived | null = null;
   #preparing: Promise<void> = Promise.resolve();
   #weights: Float32Array | null = null;
-  /** Where the pointer that paints was last, and where it and its mirror image last hit the model. */
+  /** Last position of the painting pointer, and the last hits of it and its mirror image on the model. */
   #stroke: { at: Point; last: RayHit | null; lastMirrored: RayHit | null } | null = null;
   #frame = 0;
   #isOn = false;
@@ -46,12 +46,12 @@ export class Painting {
     this.#reports = reports;
   }
 
-  /** 0 to 1 a facet, including the stroke under way; null: all 1. */
+  /** Weight of each facet, 0 to 1, including the current stroke; null: all 1. */
   get weights(): Float32Array | null {
     return this.#ready?.painter.weights ?? this.#weights;
   }
 
-  /** Sets weights from outside; those last reported by `painted` change nothing. */
+  /** Sets weights from outside; those last reported by `painted` have no effect. */
   set weights(weights: Float32Array | null) {
     if (weights === this.#weights) return;
     this.#weights = weights;
@@ -62,7 +62,7 @@ export class Painting {
     this.#reports.changed(null);
   }
 
-  /** Prepares the brush for a model when the tool is first selected. `null`: there is no model. */
+  /** Prepares the brush for a model when the tool is first selected; null: no model. */
   prepare(derived: Derived | null, isOn: boolean): void {
     this.#isOn = isOn;
     if (this.#ready !== null && this.#ready.of !== derived) this.#ready = null;
@@ -84,7 +84,7 @@ export class Painting {
     this.#reports.changed(null);
   }
 
-  /** Takes drags that begin on the model. */
+  /** Handles drags that begin on the model. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
     const moved = (at: Point): void => {
       if (this.#stroke !== null) this.#stroke.at = at;
@@ -105,13 +105,13 @@ export class Painting {
     signal.addEventListener("abort", () => cancelAnimationFrame(this.#frame));
   }
 
-  /** Paints one dab as a stroke of its own, for the keyboard, as soon as the brush is ready. */
+  /** Paints one dab as a separate stroke, for the keyboard, once the brush is ready. */
   async stamp(at: Point): Promise<void> {
     await this.#preparing;
     if (this.#begin(at)) this.#end();
   }
 
-  /** Highlights what the brush would paint under a hovering pointer. */
+  /** Highlights the facets that the brush would paint under a hovering pointer. */
   hover(at: Point | null): void {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null) return;
     const hit = at === null ? null : this.#hitAt(at);
@@ -136,7 +136,7 @@ export class Painting {
     this.#tell(true);
   }
 
-  /** Begins a stroke; returns false if there is nothing to paint under the point. */
+  /** Begins a stroke; returns false if the model is not under the point. */
   #begin(at: Point): boolean {
     if (!this.#isOn || this.#ready === null || this.#stroke !== null || this.#hitAt(at) === null) return false;
     this.#stroke = { at, last: null, lastMirrored: null };

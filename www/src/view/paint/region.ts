@@ -1,14 +1,14 @@
-/** Finds the facets that a brush or a fill covers: those connected to the facet where it is applied. */
+/** Facets covered by a brush or a fill: those connected to the facet where it is applied. */
 import { doubleArea } from "../scene/flat.js";
 import type { Triple } from "../scene/pose.js";
 import type { Topology } from "../scene/topology.js";
 
 /** The surface of a model in the file's pose. */
 export interface Surface {
-  /** Nine numbers a facet, mm. */
+  /** Nine numbers per facet, mm. */
   readonly positions: Float32Array;
   readonly topology: Pick<Topology, "twin">;
-  /** Unit normals, three numbers a facet; zeros for facets without area. */
+  /** Unit normals, three numbers per facet; zeros for facets without area. */
   readonly normals: Float32Array;
 }
 
@@ -23,8 +23,8 @@ export function normalsOf(positions: Float32Array): Float32Array {
 }
 
 /**
- * Cosine of the angle between the normals of two facets; 1 if one has no area. Runs thousands of times per move of the
- * pointer: no destructuring of arrays in here.
+ * Cosine of the angle between the normals of two facets; 1 if either has no area. Runs thousands of times per pointer move, so it does not
+ * destructure arrays.
  */
 function cosineOf(normals: Float32Array, a: number, b: number): number {
   const x = normals[3 * a] ?? 0;
@@ -38,8 +38,8 @@ function cosineOf(normals: Float32Array, a: number, b: number): number {
 }
 
 /**
- * Facets reached from `seed` across the shared edges that `takes` accepts, the seed first. A facet refused across one edge
- * may still be reached across another.
+ * Facets reached from `seed` across shared edges that `takes` accepts, the seed first. A facet refused across one edge may still be reached
+ * across another.
  */
 function grown(twin: Int32Array, seed: number, takes: (from: number, to: number) => boolean): number[] {
   const seen = new Set([seed]);
@@ -57,12 +57,9 @@ function grown(twin: Int32Array, seed: number, takes: (from: number, to: number)
   return facets;
 }
 
-/**
- * The smooth region of a facet: it crosses no edge at which the surface bends by more than `crease_deg`. At facets without
- * area the surface counts as smooth.
- */
+/** Smooth region of a facet: crosses no edge at which the surface bends by more than `crease_deg`. Facets without area count as smooth. */
 export function smoothRegion({ topology, normals }: Surface, seed: number, crease_deg: number): number[] {
-  // Normals are single precision: the cosine between coplanar facets may be this much below 1.
+  // Normals are single precision, so the cosine between coplanar facets may be this far below 1.
   const least = Math.cos((crease_deg * Math.PI) / 180) - 1e-6;
   return grown(topology.twin, seed, (from, to) => cosineOf(normals, from, to) >= least);
 }
@@ -74,8 +71,8 @@ export interface Touched {
 }
 
 /**
- * The facets connected to `seed` that lie within `radius_mm` of any point of a path and face the same half-space as the
- * seed. The seed is the facet where the path ends, and is always included.
+ * Facets connected to `seed` that lie within `radius_mm` of any point of a path and face the same half-space as the seed. The seed is the
+ * facet at the end of the path, and is always included.
  */
 export function brushRegion(
   { positions, topology, normals }: Surface,
@@ -101,8 +98,8 @@ function distanceTo(positions: Float32Array, facet: number, path: readonly Tripl
 }
 
 /**
- * Distance of a point from a facet, mm: Ericson, Real-Time Collision Detection (2005), section 5.1.5. For a facet without
- * area, the distance from its nearest corner or edge.
+ * Distance of a point from a facet, mm (Ericson, Real-Time Collision Detection, 2005, section 5.1.5). For a facet without area, the
+ * distance from its nearest corner or edge.
  */
 export function distanceToFacet(positions: Float32Array, facet: number, [x, y, z]: Triple): number {
   const at = 9 * facet;
@@ -118,7 +115,7 @@ export function distanceToFacet(positions: Float32Array, facet: number, [x, y, z
   const px = x - ax;
   const py = y - ay;
   const pz = z - az;
-  /** From the point a + v·b + w·c. */
+  /** Distance from the point a + v·b + w·c. */
   const from = (v: number, w: number): number => {
     const x = px - v * bx - w * cx;
     const y = py - v * by - w * cy;

@@ -1,4 +1,4 @@
-/** Undo and redo of strokes; a stroke keeps only the facets that it changed. */
+/** Undo and redo of strokes. A stroke stores only the facets that it changed. */
 
 export interface Stroke {
   readonly facets: Uint32Array;
@@ -8,7 +8,7 @@ export interface Stroke {
 
 const MOST_STROKES = 100;
 
-/** The stroke that changed some weights; null if it changed none. */
+/** The change of weights as a stroke; null if nothing changed. */
 export function strokeOf(facets: Iterable<number>, before: (facet: number) => number, after: Float32Array): Stroke | null {
   const changed = [...facets].filter((facet) => before(facet) !== after[facet]);
   if (changed.length === 0) return null;
@@ -31,13 +31,13 @@ export class Strokes {
     return this.#future.length > 0;
   }
 
-  /** Records a new stroke and forgets those undone before. */
+  /** Records a new stroke and drops undone ones. */
   note(stroke: Stroke): void {
     this.#past = [...this.#past, stroke].slice(-MOST_STROKES);
     this.#future = [];
   }
 
-  /** Undoes the last stroke; returns the facets that changed, or null if there is no stroke. */
+  /** Undoes the last stroke; returns the changed facets, or null if there is none. */
   undo(weights: Float32Array): Uint32Array | null {
     const stroke = this.#past.pop();
     if (stroke === undefined) return null;

@@ -1,26 +1,26 @@
-/** The markers of points on the model: what is hidden is drawn dimmed through it. */
+/** Markers of points on the model; hidden parts are drawn dimmed through it. */
 import { BufferAttribute, BufferGeometry, Color, GLSL3, Group, LineBasicMaterial, LineSegments, Points, Quaternion, RawShaderMaterial, Sphere, Vector2, Vector3 } from "three";
 import { MARK_COLOUR } from "../scene/marker.js";
 import type { Triple } from "../scene/pose.js";
 import type { Rgb } from "../legend/palette.js";
 import { LOCKED, MARKER_FRAGMENT, MARKER_VERTEX, SELECTED, UNREACHED } from "./shaders.js";
 
-/** A point that is supported, or where a hole begins. */
+/** A support point, or the start of a drain hole. */
 export interface ViewPoint {
-  /** x and y from the model's middle, z from its lowest point, mm: how far the model is lifted does not matter. */
+  /** x and y from the model's centre, z from its lowest point, mm; independent of the lift. */
   readonly at_mm: Triple;
   readonly isLocked: boolean;
-  /** True if nothing gets there. */
+  /** True if no support reaches the point, or the hole meets no void. */
   readonly isUnreached: boolean;
-  /** The way in and the diameter of a hole, of which the rim is drawn. */
+  /** Direction into the model and diameter of a hole, whose rim is drawn. */
   readonly inward?: Triple | null;
   readonly diameter_mm?: number | null;
 }
 
-/** How strongly what is behind the model is drawn. */
+/** Opacity of parts behind the model. */
 const DIMMED = 0.4;
 
-/** Sides of a rim. */
+/** Number of sides of a rim. */
 const SIDES = 48;
 
 const OUTWARD = new Vector3(0, 0, 1);
@@ -29,7 +29,7 @@ export class Markers {
   readonly group = new Group();
   #points: readonly ViewPoint[] = [];
   #selected: number | null = null;
-  /** The point that is being dragged, and where it is. */
+  /** The point being dragged, and its current place. */
   #dragged: { readonly place: number; readonly at_mm: Triple; readonly inward: Triple } | null = null;
   readonly #size = new Vector2(1, 1);
   readonly #accent = new Vector3();
@@ -38,7 +38,7 @@ export class Markers {
   readonly #rims = [rims(DIMMED, false), rims(1, true)] as const;
 
   constructor() {
-    // After the model, and what is dimmed before what is not.
+    // After the model; dimmed layers before the others.
     for (const [order, layer] of [...this.#rims, ...this.#marks].entries()) {
       layer.renderOrder = 12 + order;
       layer.frustumCulled = false;
@@ -57,7 +57,7 @@ export class Markers {
     this.#draw();
   }
 
-  /** Draws a point elsewhere while it is being dragged; null: where it is. */
+  /** Draws a point at another place during a drag; null ends that. */
   drag(dragged: { readonly place: number; readonly at_mm: Triple; readonly inward: Triple } | null): void {
     this.#dragged = dragged;
     this.#draw();
@@ -69,7 +69,7 @@ export class Markers {
     for (const { material } of this.#rims) material.color.setRGB(accent[0] / 255, accent[1] / 255, accent[2] / 255, "srgb");
   }
 
-  /** @param height_px of the view, CSS pixels */
+  /** @param height_px height of the view, CSS pixels */
   prepare(height_px: number, density: number): void {
     this.#size.set(height_px, density);
   }
@@ -108,11 +108,11 @@ export class Markers {
       const isSelected = place === this.#selected;
       return (isLocked ? LOCKED : 0) + (isUnreached ? UNREACHED : 0) + (isSelected ? SELECTED : 0);
     });
-    // What is drawn later is above: the selected one, then those by hand.
+    // Later markers are on top: those by hand, then the selected one.
     const order = [...points.keys()].sort((a, b) => (shows[a] ?? 0) - (shows[b] ?? 0));
     const positions = Float32Array.from(order.flatMap((place) => points[place]?.at_mm ?? []));
     const shown = Float32Array.from(order.map((place) => shows[place] ?? 0));
-    // A hole begins a diameter before the surface.
+    // The marker of a hole is drawn one diameter nearer to the eye, so that the hole's edge does not cover it.
     const before_mm = Float32Array.from(order.map((place) => (points[place]?.inward == null ? 0 : (points[place].diameter_mm ?? 0))));
     for (const layer of this.#marks) {
       const geometry = replaced(layer, positions);
@@ -124,7 +124,7 @@ export class Markers {
   }
 }
 
-/** Gives what is drawn other points. */
+/** Replaces the points of a layer. */
 function replaced(layer: Points | LineSegments, positions: Float32Array): BufferGeometry {
   layer.geometry.dispose();
   layer.geometry = new BufferGeometry().setAttribute("position", new BufferAttribute(positions, 3));
@@ -138,7 +138,7 @@ function rims(opacity: number, isTested: boolean): LineSegments<BufferGeometry, 
   return new LineSegments(new BufferGeometry(), material);
 }
 
-/** The lines around a hole, a little outside the surface. */
+/** Line segments around a hole, slightly outside the surface. */
 function rimOf({ at_mm, inward, diameter_mm }: ViewPoint): number[] {
   if (inward == null || diameter_mm == null) return [];
   const turn = new Quaternion().setFromUnitVectors(OUTWARD, new Vector3(...inward).negate().normalize());

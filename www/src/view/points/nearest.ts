@@ -1,18 +1,18 @@
-/** Which marker a pointer means. */
+/** Finds the marker at a pointer. */
 import type { Point } from "../scene/pointer.js";
 
-/** Within this of a marker's middle a pointer is on it: CSS pixels of a mouse or pen, and of a finger. */
+/** Hit radius of a marker, CSS pixels: for a mouse or pen, and for a finger. */
 export const REACH_PX = 12;
 export const TOUCH_REACH_PX = 22;
 
-/** The places of the markers within reach of a pointer, the nearest first. */
+/** Indices of the markers within reach of a pointer, nearest first. */
 export function within(at: Point, markers: readonly Point[], reach_px: number): number[] {
   const away = markers.map(([x, y]) => Math.hypot(x - at[0], y - at[1]));
   const near = [...away.keys()].filter((place) => (away[place] ?? Infinity) <= reach_px);
   return near.sort((a, b) => (away[a] ?? 0) - (away[b] ?? 0));
 }
 
-/** The point after, or before, the selected one, and round again; the first or last if none is selected. Null without points. */
+/** Next or previous point, cyclically; the first or last if none is selected. Null without points. */
 export function stepped(selected: number | null, by: 1 | -1, count: number): number | null {
   if (count === 0) return null;
   if (selected === null || selected >= count) return by > 0 ? 0 : count - 1;

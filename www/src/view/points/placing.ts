@@ -1,4 +1,4 @@
-/** Places points on the model's surface, by pointer and by keyboard. */
+/** Places points on the model's surface by pointer and keyboard. */
 import { Ray, Vector3 } from "three";
 import type { PointDetail, SurfacePlace } from "../events.js";
 import { watchDrags, type Drags } from "../scene/drags.js";
@@ -15,7 +15,7 @@ import { sighted } from "./sight.js";
 
 interface Drag {
   readonly place: number;
-  /** Where the pointer was pressed, and from there to the marker's middle. */
+  /** Position of the press, and offset from there to the marker's centre. */
   readonly from: Point;
   readonly grasp: Point;
   to: SurfacePlace | null;
@@ -35,7 +35,7 @@ export class Placing {
     this.#tell = tell;
   }
 
-  /** @param supports what stands before the model, mm from the plate; null: nothing */
+  /** @param supports facets of the supports in front of the model, mm, z from the plate; null: none */
   prepare(derived: Derived | null, supports: Float32Array | null): void {
     if (this.#derived !== derived || !this.isOn) this.cancel();
     this.#derived = derived;
@@ -43,7 +43,7 @@ export class Placing {
     this.#supports = { of: supports, raycast: supports === null || supports.length < 9 ? null : new Raycast(supports) };
   }
 
-  /** Takes drags that begin on a marker, and tells `holder` by a class when a pointer is over one. */
+  /** Handles drags that begin on a marker, and sets the class `over` on `holder` while a pointer is over one. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
     const drags: Drags = {
       begin: (at, { pointerType }) => this.isOn && this.#begin(at, pointerType === "touch" ? TOUCH_REACH_PX : REACH_PX),
@@ -61,7 +61,7 @@ export class Placing {
     holder.addEventListener("pointermove", over, { capture: true, signal });
   }
 
-  /** Adds a point where the model is, and lets go of the selected one where it is not. */
+  /** Adds a point on the model; a click next to it clears the selection. */
   clicked(at: Point): void {
     if (this.#scene.isHot) return;
     const to = this.#surfaceAt(at);
@@ -70,9 +70,9 @@ export class Placing {
   }
 
   /**
-   * Selects the next point, or the one before, and turns the camera where it does not see it.
+   * Selects the next or previous point, and turns the camera if the point is out of sight.
    *
-   * @param duration_ms how long the camera may take
+   * @param duration_ms duration of the camera's flight
    */
   step(by: 1 | -1, duration_ms: number): void {
     const place = stepped(this.selected, by, this.#scene.markers.points.length);
@@ -91,7 +91,7 @@ export class Placing {
     if (this.selected !== null) this.#tell({ do: what, place: this.selected });
   }
 
-  /** Puts a dragged point back; returns whether there was one. */
+  /** Puts a dragged point back; returns true if there was one. */
   cancel(): boolean {
     const had = this.#drag !== null;
     this.#drag = null;
@@ -122,7 +122,7 @@ export class Placing {
     this.#scene.invalidate();
   }
 
-  /** Where a point is on the plate. */
+  /** Position of a point on the plate. */
   #pointAt(place: number): Vector3 {
     const [x, y, z] = this.#scene.markers.points[place]?.at_mm ?? [0, 0, 0];
     return new Vector3(x, y, z + this.#scene.model.lift_mm);
@@ -132,19 +132,19 @@ export class Placing {
     return this.#scene.cameras.project(this.#pointAt(place));
   }
 
-  /** The marker that a pointer is on. Those behind the model are seen, but what is before them is meant. */
+  /** The marker under a pointer. Markers behind the model are visible, but do not receive the pointer. */
   #markerAt(at: Point, reach_px: number): number | null {
     const places = this.#scene.markers.points.map((_, place) => this.#shownAt(place));
     const eye = this.#scene.cameras.current.position;
     return within(at, places, reach_px).find((place) => !this.#isHidden(this.#pointAt(place), eye)) ?? null;
   }
 
-  /** Returns true if the model hides a point from an eye, both on the plate. */
+  /** Returns true if the model hides a point from an eye, both in the plate's frame. */
   #isHidden(point: Vector3, eye: Vector3): boolean {
     const ray = this.#scene.inFile(new Ray(eye, point.clone().sub(eye).normalize()));
     const hit = this.#derived?.raycast?.cast(ray) ?? null;
     if (hit === null) return false;
-    // It is on the surface, so only what is clearly before it hides it.
+    // The point is on the surface, so only a hit clearly in front of it hides it.
     return this.#onPlate(hit.point).distanceTo(eye) < point.distanceTo(eye) - 0.01 * Math.hypot(...this.#scene.model.size_mm);
   }
 
@@ -152,7 +152,7 @@ export class Placing {
     return this.#supports.raycast?.cast(this.#scene.worldRayAt(...at)) != null;
   }
 
-  /** Where a ray meets the model, unless a support is before that. */
+  /** Intersection of a ray with the model, unless a support is in front. */
   #surfaceAt(at: Point): SurfacePlace | null {
     const derived = this.#derived;
     const ray = this.#scene.rayAt(...at);
@@ -166,12 +166,12 @@ export class Placing {
     return { at_mm: [x, y, z - this.#scene.model.lift_mm], inward: this.#inward(derived.positions, hit.facet, ray.direction).toArray() };
   }
 
-  /** Where a point of the file is on the plate. */
+  /** Transforms a point of the file into the plate's frame. */
   #onPlate(point: Triple): Vector3 {
     return new Vector3(...point).applyMatrix4(this.#scene.model.facets.matrixWorld);
   }
 
-  /** The way out of the model at a point: against that of a hole, or at the nearest facet, as its file has it. */
+  /** Outward direction at a point: opposite to the hole's, or the normal of the nearest facet as in the file. */
   #outward(place: number, point: Vector3): Vector3 {
     const inward = this.#scene.markers.points[place]?.inward ?? null;
     if (inward !== null) return new Vector3(...inward).negate();
@@ -181,7 +181,7 @@ export class Placing {
     return normal.transformDirection(facets.matrixWorld);
   }
 
-  /** The way into the model at a facet: that of a ray rather than that of a facet the wrong way round. */
+  /** Inward direction at a facet: the side into which the ray points, so that inverted facets do not matter. */
   #inward(positions: Float32Array, facet: number, direction: Vector3): Vector3 {
     const normal = new Vector3(...doubleArea(positions, facet));
     if (normal.length() === 0) normal.copy(direction);

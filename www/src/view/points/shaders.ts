@@ -1,14 +1,14 @@
 /**
- * The shaders of the markers. Each is a square of constant size on screen, drawn in front of the surface that it is on. Shapes tell
- * what colours tell, too: round or square, with a cross or without, in a ring or without.
+ * Shaders of the markers. Each is a square of constant size on the screen, drawn in front of its surface. Shapes repeat the information of
+ * colours: round or square, with or without a cross, with or without a ring.
  */
 
-/** What a marker shows, added up. */
+/** Bit flags of a marker. */
 export const LOCKED = 1;
 export const UNREACHED = 2;
 export const SELECTED = 4;
 
-/** Half the side of the square in which a marker is drawn, CSS pixels. */
+/** Half the side of a marker's square, CSS pixels. */
 export const HALF_PX = 12;
 
 export const MARKER_VERTEX = /* glsl */ `

@@ -5,7 +5,7 @@ import { sighted } from "./sight.js";
 
 const FRONT: Viewpoint = { position: [0, -100, 0], target: [0, 0, 0] };
 
-/** Returns true if a ball about the middle hides a point of itself from a place: it is seen from beyond its tangent plane. */
+/** Returns true if a ball at the origin does not hide a point on it from a viewpoint, which must lie beyond the tangent plane. */
 const beyond = (point: Vector3) => ({ position }: Viewpoint): boolean => new Vector3(...position).dot(point) > point.lengthSq();
 
 const turned_deg = ({ position: [x, y, z] }: Viewpoint): number => (180 / Math.PI) * Math.acos(-y / Math.hypot(x, y, z));
@@ -16,7 +16,7 @@ test("a point that is seen leaves the camera where it is", () => {
 });
 
 test("the camera turns about what it looks at, no farther than it has to, and not to a flat look", () => {
-  // From behind its limb, that is some 90° away; 15° more for a look that is not flat, and as many between the directions.
+  // From behind the limb the turn is about 90°, plus 15° for a look that is not flat and 15° for the spacing of directions.
   for (const point of [new Vector3(0, 10, 0), new Vector3(7, 7, 0), new Vector3(0, 7, -7)]) {
     const outward = point.clone().normalize();
     const to = sighted(FRONT, point, outward, beyond(point));

@@ -1,19 +1,19 @@
-/** From where a point of the model is seen. */
+/** Finds viewpoints from which a point of the model is visible. */
 import { Vector3 } from "three";
 import type { Viewpoint } from "../scene/viewpoint.js";
 
-/** Between the directions that are tried, radians. */
+/** Angle between candidate directions, radians. */
 const STEP = Math.PI / 12;
 
-/** The cosine of the flattest look at the surface: a marker at its edge is hardly seen. */
+/** Cosine of the flattest view of the surface; at a lower angle, a marker is hardly visible. */
 const LEAST_COSINE = 0.25;
 
-/** All around, and no steeper than 60°: there nobody knows any more which side is the front. */
+/** Candidate directions, all around but at most 60° steep: beyond that, users lose track of the front. */
 const DIRECTIONS: readonly Vector3[] = Array.from({ length: 9 }, (_, row) => (row - 4) * STEP).flatMap((up) =>
   Array.from({ length: 24 }, (_, column) => new Vector3(Math.cos(column * STEP), Math.sin(column * STEP), 0).multiplyScalar(Math.cos(up)).setZ(Math.sin(up))),
 );
 
-/** The nearest to a direction first. */
+/** Candidate directions sorted by closeness to `to`. */
 const nearest = (to: Vector3): Vector3[] => [...DIRECTIONS].sort((a, b) => b.dot(to) - a.dot(to));
 
 const from = (target: Vector3, direction: Vector3, away: number): Viewpoint => ({
@@ -22,11 +22,11 @@ const from = (target: Vector3, direction: Vector3, away: number): Viewpoint => (
 });
 
 /**
- * The camera turned as little as possible, so that it sees a point: about what it looks at, or about the point, where it would be out
- * of its sight otherwise. Null if it sees it as it is.
+ * The camera turned as little as possible to see a point: around its target, or around the point if the former cannot show it. Null if the
+ * point is already visible.
  *
- * @param outward unit vector away from the model at the point; into it, for a file that is inside out
- * @param isSeen whether nothing hides the point from a place, and the view has it
+ * @param outward unit vector out of the model at the point; into it, for an inverted file
+ * @param isSeen returns true if the point is unobstructed from a viewpoint and inside the view
  */
 export function sighted(now: Viewpoint, point: Vector3, outward: Vector3, isSeen: (from: Viewpoint) => boolean): Viewpoint | null {
   if (isSeen(now)) return null;
@@ -40,6 +40,6 @@ export function sighted(now: Viewpoint, point: Vector3, outward: Vector3, isSeen
       if (Math.abs(cosine) >= LEAST_COSINE && isSeen(to)) return to;
     }
   }
-  // Hidden from everywhere, as in a cavity: the camera is at least before it.
+  // Hidden from everywhere, as in a cavity: at least face the point.
   return from(point, nearest(outward)[0] ?? outward, away);
 }
