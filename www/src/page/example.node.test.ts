@@ -9,7 +9,7 @@ test("the example shows what adaptive layers are for: by default it saves half o
   expect(max_error).toBeLessThanOrEqual(tolerance);
   expect(layers).toBeLessThan(uniform.finest.layers / 2);
   expect(uniform.coarsest.max_error).toBeGreaterThan(2 * tolerance);
-  // Thin ones and thick ones, each in good number: colours to see, and steps.
+  // Enough thin and thick layers to show both colours and steps.
   const share = (isOne: (mm: number) => boolean): number => thickness_mm.filter(isOne).length / layers;
   expect(share((mm) => mm < 0.09)).toBeGreaterThan(0.25);
   expect(share((mm) => mm > 0.14)).toBeGreaterThan(0.25);

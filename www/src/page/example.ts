@@ -1,13 +1,13 @@
 /**
- * The model behind "try the example": a goblet made by turning a profile about the z axis, its bowl fluted and twisted.
+ * Example model: a goblet made by turning a profile about the z axis, its bowl fluted and twisted.
  *
- * It is closed, stands on z = 0 and has every kind of surface that a planner meets: flats (foot, floor, rim), steep walls
- * (stem, bowl), and slopes that go from flat to steep (foot, knop, the underside of the bowl).
+ * It is closed, stands on z = 0 and has every kind of surface relevant to a planner: flats (foot, floor, rim), steep walls (stem, bowl),
+ * and slopes from flat to steep (foot, knop, the underside of the bowl).
  */
 
 export const EXAMPLE_NAME = "goblet.stl";
 
-/** Points of the profile as [radius, height, flute]: how much of the fluting applies there, 0 to 1. All in mm. */
+/** Points of the profile as [radius, height, flute], where flute is the strength of the fluting, 0 to 1. Lengths in mm. */
 type ProfilePoint = readonly [radius: number, height: number, flute: number];
 
 const AROUND = 90;
@@ -67,7 +67,7 @@ export function exampleTriangles(): Float32Array {
     for (let i = 0; i < AROUND; i++) {
       const angle = (i / AROUND) * 2 * Math.PI;
       const r = radius * (1 + flute * FLUTE_DEPTH * Math.cos(FLUTES * (angle - TWIST * height)));
-      // Adding zero turns -0 into 0: readers that compare corners bit by bit must find one point at the axis.
+      // Adding zero turns -0 into 0, so that readers that compare corners bit by bit find a single point on the axis.
       out.set([r * Math.cos(angle) + 0, r * Math.sin(angle) + 0, height], 3 * i);
     }
     return out;
@@ -81,7 +81,7 @@ export function exampleTriangles(): Float32Array {
   };
   for (let k = 0; k + 1 < rings.length; k++) {
     const [low, high] = [rings[k], rings[k + 1]];
-    // At the axis a ring is one point, and one of the two triangles would have no area.
+    // On the axis, a ring is one point, and one of the two triangles would have no area.
     const lowOpen = points[k]?.[0] !== 0;
     const highOpen = points[k + 1]?.[0] !== 0;
     for (let i = 0; i < AROUND; i++) {
@@ -100,7 +100,7 @@ export function exampleTriangles(): Float32Array {
   return Float32Array.from(out);
 }
 
-/** A binary STL of triangles given as nine coordinates each. Normals are left at zero, which readers must expect. */
+/** Binary STL of triangles given as nine coordinates each. Normals stay zero, as readers must expect. */
 export function binaryStl(triangles: Float32Array): Uint8Array<ArrayBuffer> {
   const count = triangles.length / 9;
   const bytes = new Uint8Array(84 + 50 * count);

@@ -1,15 +1,15 @@
-/** A button of the page's header, and the panel that it opens below it. */
+/** A button of the page's header with a panel below it. */
 import { html, type TemplateResult } from "lit";
 import { icon, type IconName } from "./icons.js";
 
 export interface Flyout {
-  /** Unique in the page. */
+  /** Unique within the page. */
   id: string;
   label: string;
-  /** Stands for the label on a phone. */
+  /** Replaces the label on a phone. */
   icon: IconName;
   content: TemplateResult;
-  /** Called before the panel is shown, to fetch what is in it. */
+  /** Called before the panel is shown, to fetch its content. */
   opening(): void;
 }
 
@@ -27,7 +27,7 @@ export function closeFlyout(id: string): void {
   document.getElementById(id)?.hidePopover();
 }
 
-/** Escape closes an open panel, and cancels nothing. */
+/** Keeps Escape, which closes an open panel, from cancelling a task. */
 function kept(event: KeyboardEvent): void {
   const isOpen = (event.currentTarget as HTMLElement).querySelector(":popover-open") !== null;
   if (event.key === "Escape" && isOpen) event.stopPropagation();

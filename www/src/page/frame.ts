@@ -11,19 +11,19 @@ import type { Visit } from "./visit.js";
 export interface PageActions {
   example(): void;
   speak(locale: string): void;
-  /** Opens files that a person chose. */
+  /** Opens files that the user chose. */
   open(files: readonly File[]): void;
   /** Closes the notice. */
   dismiss(): void;
 }
 
-/** A print file in place of the slicer. */
+/** A print file shown in place of the slicer. */
 export interface PrintOnShow {
   file: File;
   close(): void;
-  /** The file turned out to be something else. */
+  /** Called if the file is not a print file. */
   unknown(): void;
-  /** The reader could not be loaded. */
+  /** Called if the reader could not be loaded. */
   missing(): void;
 }
 

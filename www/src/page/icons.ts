@@ -1,4 +1,4 @@
-/** Icons of the page's buttons, on a grid of 20 by 20. */
+/** Icons of the page's buttons, on a grid of 20 × 20. */
 import { html, type TemplateResult } from "lit";
 
 const PATHS = {

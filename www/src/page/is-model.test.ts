@@ -3,7 +3,7 @@ import { binaryStl } from "./example.js";
 import { isModel } from "./is-model.js";
 
 const text = (words: string): Blob => new Blob([words]);
-/** The directory of a zip names its files at its end. */
+/** A zip lists its files at its end. */
 const zip = (name: string): Blob => new Blob(["PK\u0003\u0004\0\0", "data ".repeat(50_000), "PK\u0001\u0002\0", name, "PK\u0005\u0006\0"]);
 
 test.each([

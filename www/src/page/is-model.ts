@@ -1,21 +1,21 @@
-/** Whether a file is a model by its content, whatever its name: what is left may be a print file, and those are often zips too. */
+/** Distinguishes models from print files by content, not by name; both are often zips. */
 
-/** A binary STL has a header and a count, then so many facets. */
+/** A binary STL has a header with a count, then that number of facets. */
 const STL_HEADER_BYTES = 84;
 const STL_FACET_BYTES = 50;
 
-/** Enough to tell text from anything else. */
+/** Enough bytes to distinguish text from binary. */
 const HEAD_BYTES = 1024;
 
-/** The letters that a zip begins with: PK. */
+/** First bytes of a zip: PK. */
 const ZIP = [0x50, 0x4b] as const;
 
-/** Where the directory of a zip ends: before a comment of at most 64 KiB. */
+/** Range that contains the end of a zip's directory, followed by a comment of at most 64 KiB. */
 const TAIL_BYTES = 1 << 17;
 
 /**
- * True for a binary STL, for text, which no print file is, and for a zip with a model in its directory, as a 3MF is. The core
- * tells what is wrong with a model.
+ * Returns true for a binary STL, for text, which no print file is, and for a zip with a model in its directory, such as a 3MF. The core
+ * reports faults of a model.
  */
 export async function isModel(file: Blob): Promise<boolean> {
   const head = new Uint8Array(await file.slice(0, HEAD_BYTES).arrayBuffer());

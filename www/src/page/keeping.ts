@@ -1,7 +1,7 @@
-/** Whether models are kept between visits: whether the browser can, and whether the person wants it. */
+/** Support and consent for keeping models between visits. */
 import { readKept, writeKept } from "./storage.js";
 
-/** False in older Safari and on pages without TLS. Some private windows refuse only when asked: see `recentModels()`. */
+/** False in older Safari and on pages without TLS. Some private windows refuse only later: see `recentModels()`. */
 export const canKeep = (): boolean =>
   "createWritable" in (globalThis.FileSystemFileHandle?.prototype ?? {}) && "locks" in navigator && "getDirectory" in navigator.storage;
 

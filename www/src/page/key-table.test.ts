@@ -7,7 +7,7 @@ import { words } from "./texts/visit/en.js";
 
 afterEach(() => vi.unstubAllGlobals());
 
-/** Every key of a usual keyboard, alone and with modifiers, as in the table. */
+/** Every key of an ordinary keyboard, alone and with modifiers, named as in the table. */
 const PRINTABLE = Array.from({ length: 94 }, (_, i) => String.fromCharCode(33 + i)).filter((key) => !/[A-Z]/.test(key));
 const NAMED = ["Arrow", "Page"].flatMap((kind) => ["Left", "Right", "Up", "Down"].map((way) => kind + way));
 const OTHERS = ["Enter", "Escape", "Tab", " ", "Home", "End", "Insert", "Delete", "Backspace", "F1", "F2"];
@@ -25,7 +25,7 @@ const listed = (place: Place): string[] =>
     rows.flatMap(([, keys, held]) => keys.map((key) => (held === undefined ? key : `${held}+${key}`))),
   );
 
-/** What a press is listed as: `=` is on the key of `+`, and Shift counts only where it makes a difference. */
+/** Name of a key press in the table: `=` is on the key of `+`, and Shift counts only if it makes a difference. */
 const same = (name: string, tool: Tool | null): string => {
   const key = name.replace(/=$/, "+").replace("Mod+Shift+y", "Mod+y").replace(/^.*Escape$/, "Escape");
   const counts =
@@ -47,7 +47,7 @@ test.each([
   const names = new Set([...listed("turn"), ...listed(place)]);
   const found = new Set(presses.filter(({ event }) => pressed(event, tool) !== null).map(({ name }) => same(name, tool)));
   expect([...found].filter((name) => !names.has(name))).toEqual([]);
-  // And no key that does nothing.
+  // All listed keys have an effect.
   expect(listed(place).filter((name) => !found.has(name))).toEqual([]);
 });
 

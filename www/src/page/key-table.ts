@@ -1,7 +1,7 @@
-/** The one table of the page's keys, as the list of keys shows it. */
+/** Table of the page's keys, as shown in the list of keys. */
 import type { Tool } from "../view/scene/keys.js";
 
-/** What a key does: see the texts. */
+/** Effects of keys, described in the texts. */
 export type Does =
   | "keys" | "open" | "paste" | "undo" | "redo" | "cancel"
   | "turnView" | "zoom" | "whole" | "pickLayer"
@@ -11,16 +11,16 @@ export type Does =
   | "layer" | "layers" | "ends" | "zoomChart"
   | "move" | "direction" | "use";
 
-/** Keys whose names are words. */
+/** Keys named by words. */
 export type KeyName = "mod" | "shift" | "enter" | "escape" | "delete" | "backspace" | "pageUp" | "pageDown" | "home" | "end";
 
-/** The tools of the view that place points: they have the same keys. */
+/** Tools that place points; they share their keys. */
 type Placer = "supports" | "drains";
 
-/** Where the keys work: with one of the view's tools, or elsewhere. */
+/** Context in which keys work: one of the view's tools, or another part of the page. */
 export type Place = "everywhere" | Exclude<Tool, Placer> | "points" | "layers" | "mask" | "directions";
 
-/** Keys that do one thing, as `KeyboardEvent.key` has them, after `Mod+` for Ctrl or ⌘, and `Shift+`; and a key held with all. */
+/** Keys with one effect, as in `KeyboardEvent.key`, after `Mod+` for Ctrl or ⌘, and `Shift+`; and a key to hold with all of them. */
 export type Row = readonly [does: Does, keys: readonly string[], held?: "Shift"];
 
 const ARROWS = ["ArrowLeft", "ArrowRight", "ArrowUp", "ArrowDown"] as const;
@@ -29,7 +29,7 @@ const PAGES = ["PageUp", "PageDown"] as const;
 const TURN_VIEW: Row = ["turnView", ARROWS];
 const ZOOM: Row = ["zoom", ["+", "-"]];
 
-/** The view's tools share the keys of the first: only what differs is listed for the others. */
+/** The view's tools share the keys of the first; for the others, only differences are listed. */
 export const KEY_TABLE: readonly (readonly [Place, readonly Row[]])[] = [
   [
     "everywhere",
@@ -106,7 +106,7 @@ const NAMES: Readonly<Record<string, KeyName>> = {
   End: "end",
 };
 
-/** The caps of a key of the table: `Mod+z` as Ctrl and Z. */
+/** Key caps of a key of the table: Ctrl and Z for `Mod+z`. */
 export function caps(key: string, names: Readonly<Record<KeyName, string>>, isMac: boolean): string[] {
   return key.split(/\+(?=.)/).map((part) => {
     const name = NAMES[part];

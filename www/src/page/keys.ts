@@ -1,4 +1,4 @@
-/** `<cusp-keys>`: the list of the page's keys, a dialog. It fires `cusp-tour` when a person wants to see the tour. */
+/** `<cusp-keys>`: the list of the page's keys, a dialog. It fires `cusp-tour` when the user requests the tour. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { define } from "../element/define.js";
@@ -12,7 +12,7 @@ import { visitWords, type VisitWords } from "./texts/visit/index.js";
 
 const PROPERTIES = {
   language: given<Language>(languageOf()),
-  /** True if there is a plan, so that the tour has something to show. */
+  /** True if there is a plan, which the tour needs. */
   hasTour: given(false),
 };
 
@@ -167,7 +167,7 @@ export class CuspKeys extends elementWith(PROPERTIES) {
     this.dispatchEvent(new CustomEvent("cusp-tour"));
   };
 
-  /** A click beside the dialog closes it. */
+  /** Closes the dialog on a click outside. */
   readonly #clicked = (event: MouseEvent): void => {
     if (event.target !== this.#dialog) return;
     const { left, right, top, bottom } = this.#dialog.getBoundingClientRect();
@@ -176,7 +176,7 @@ export class CuspKeys extends elementWith(PROPERTIES) {
   };
 }
 
-/** While the dialog is open, keys are its own: Escape closes it and cancels nothing. */
+/** While the dialog is open, it receives all keys: Escape closes it and cancels no task. */
 function kept(event: KeyboardEvent): void {
   event.stopPropagation();
 }

@@ -11,7 +11,7 @@ class Element extends EventTarget {
   get plates(): unknown {
     return { plates: [{ report: this.report }] };
   }
-  /** What a person does, with the event that follows. */
+  /** Sets the user's handwork and fires an event. */
   does(work: Partial<Handwork>, event: string): void {
     this.work = { ...this.work, ...work };
     if (event !== "cusp-export") this.report = {};

@@ -1,14 +1,14 @@
-/** The browser's question before the page is left: only while something made by hand would be lost with it. */
+/** Asks before the user leaves the page, but only if handmade edits would be lost. */
 import type { Handwork, SlicerElement } from "../element/slicer-element.js";
 import { fromAddress } from "../element/state/settings.js";
 
-/** What `askBeforeLeaving` uses of the element. */
+/** The part of the element used by `askBeforeLeaving`. */
 type Worked = Pick<SlicerElement, "handwork" | "plates" | "addEventListener">;
 
-/** After any of these something may be lost, or nothing any more. */
+/** Events that may change whether there are edits to lose. */
 const EVENTS = ["cusp-load", "cusp-change", "cusp-paint", "cusp-plan", "cusp-export"] as const;
 
-/** @param asked the settings of the address, which may have points already */
+/** @param asked settings of the URL, which may already contain points */
 export function askBeforeLeaving(element: Worked, asked: string): void {
   const link = fromAddress(asked);
   const isWork = ({ isPainted, points, drains, models }: Handwork): boolean =>
@@ -19,7 +19,7 @@ export function askBeforeLeaving(element: Worked, asked: string): void {
   for (const name of EVENTS) {
     element.addEventListener(name, () => {
       if (name === "cusp-export") saved = plan();
-      // A page that always asks is not kept when somebody goes back to it.
+      // Browsers do not cache a page that always asks, so the listener is removed when not needed.
       if (isWork(element.handwork()) && plan() !== saved) window.addEventListener("beforeunload", ask);
       else window.removeEventListener("beforeunload", ask);
     });

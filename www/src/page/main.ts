@@ -1,4 +1,4 @@
-/** The page around the element: its header, opening files anywhere, the example, the address, working offline. */
+/** The page around the element: header, opening of files anywhere, the example, the URL, and offline use. */
 import "../workbench/register.js";
 import { render } from "lit";
 import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
@@ -27,7 +27,7 @@ const place = found<HTMLElement>("#page");
 const asked = new URLSearchParams(location.search);
 const own = new URLSearchParams([...asked].filter(([key]) => ADDRESS_KEYS.includes(key)));
 
-/** The print file on show, and the files that it was opened with. */
+/** Print file shown, and the files opened with it. */
 let shown: readonly File[] | null = null;
 let notice: Notice | null = null;
 
@@ -55,12 +55,12 @@ function say(said: Notice | null): void {
   draw();
 }
 
-/** Shows a print file, or opens models. Only the reader knows print files, so whatever is no model by its content goes there first. */
+/** Shows a print file or opens models. Files whose content is not a model go first to the reader, which alone knows print files. */
 async function open(files: readonly File[]): Promise<void> {
   const [first] = files;
   if (first === undefined) return;
   notice = null;
-  // A file that cannot be read is the slicer's to report.
+  // The slicer reports a file that cannot be read.
   if (await isModel(first).catch(() => true)) return load(files);
   try {
     const { definePrint } = await import("../print/cusp-print.js");
@@ -72,7 +72,7 @@ async function open(files: readonly File[]): Promise<void> {
   draw();
 }
 
-/** Without the reader, what is named as a model may be a damaged one; the slicer would take a print file for such. */
+/** Without the reader, only files named as models are opened: they may be damaged models. The slicer would report a print file as one. */
 function unread(files: readonly File[]): void {
   const [{ name } = { name: "" }] = files;
   if (isNamedAsModel(name)) return load(files);
@@ -109,12 +109,12 @@ async function example(): Promise<void> {
   slicer.load(new Blob([binaryStl(exampleTriangles())]), EXAMPLE_NAME).catch(() => undefined);
 }
 
-/** Keeps settings in the address, so that a link shows the same plan. */
+/** Keeps the settings in the URL, so that a link shows the same plan. */
 function keep(): void {
   history.replaceState(null, "", addressOf(slicer.query, own) || location.pathname);
 }
 
-/** The first of these in the workbench. */
+/** The first match of these selectors in the workbench. */
 const within = (selectors: string) => (): HTMLElement | null => slicer.renderRoot.querySelector<HTMLElement>(selectors);
 
 const visit = new Visit({
@@ -129,7 +129,7 @@ const visit = new Visit({
 
 let slicer: CuspWorkbench;
 
-/** In a function, since a top-level await would part the page into many small files that wait for each other. */
+/** A function, because a top-level await would split the page into many small files that wait for one another. */
 async function start(): Promise<void> {
   await fetchTexts();
   draw();
@@ -154,7 +154,7 @@ async function start(): Promise<void> {
   fetchAhead();
 }
 
-/** Fetches the view when the page is idle, so that it is there when a model is; not for whoever saves data. */
+/** Fetches the view when the page is idle, before it is needed, unless the user saves data. */
 function fetchAhead(): void {
   if ((navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true) return;
   idle().then(fetchView).catch(() => undefined);

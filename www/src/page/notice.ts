@@ -1,9 +1,9 @@
-/** What went wrong with the page itself, at the bottom of the window until it is closed. */
+/** Errors of the page itself, shown at the bottom of the window until closed. */
 import { html, nothing, type TemplateResult } from "lit";
 import { shown } from "../api/visible.js";
 import type { PageWords } from "./texts/index.js";
 
-/** A part or the reader of print files could not be loaded, so that only a reload helps; or a model could not be kept. */
+/** A part or the reader of print files could not be loaded, which only a reload fixes; or a model could not be kept. */
 export type Notice = { says: "part" } | { says: "reader" | "notKept"; name: string };
 
 export function noticeBar(notice: Notice, { notices: words }: PageWords, close: () => void): TemplateResult {

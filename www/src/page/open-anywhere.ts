@@ -1,4 +1,4 @@
-/** Lets files be dropped or pasted anywhere on the page, and Escape cancel wherever the focus is. */
+/** Accepts dropped and pasted files anywhere on the page, and Escape from any focus. */
 import { takeDrop, type DropHost } from "../element/dropped.js";
 
 export interface Anywhere extends DropHost {
@@ -8,8 +8,7 @@ export interface Anywhere extends DropHost {
 
 export function openAnywhere(anywhere: Anywhere): void {
   const { dragging, open, cancel } = anywhere;
-  // Captured before the element sees them, so that it need not tell its own drops from the page's. A drop beside the
-  // element must not make the browser leave the page.
+  // Captures events before the element, to avoid handling a drop twice. A drop outside the element must not navigate away.
   window.addEventListener(
     "dragover",
     (event) => {
@@ -20,7 +19,7 @@ export function openAnywhere(anywhere: Anywhere): void {
     { capture: true },
   );
   window.addEventListener("dragleave", (event) => {
-    // Moving from one element to another does not leave the page.
+    // A move between elements of the page has a related target.
     if (event.relatedTarget === null) dragging(false);
   });
   window.addEventListener(

@@ -1,14 +1,14 @@
 /** The key `?`, which opens the list of keys. */
 import { readKept, writeKept } from "./storage.js";
 
-/** Returns true if it does: people who dictate switch it off, since their words may contain any character (WCAG 2.1.4). */
+/** Returns true if the key is enabled: users of dictation can switch it off, since their words may contain any character (WCAG 2.1.4). */
 export const hasQuestionMark = (): boolean => readKept("question-mark") === null;
 
 export function setQuestionMark(is: boolean): void {
   writeKept("question-mark", is ? null : "off");
 }
 
-/** Returns true if a key asks for the list: not where somebody types. */
+/** Returns true if a key press requests the list, except in a text field. */
 export function asksForKeys(event: KeyboardEvent): boolean {
   const { key, ctrlKey, metaKey, altKey } = event;
   return key === "?" && !ctrlKey && !metaKey && !altKey && !isTyping(event) && hasQuestionMark();

@@ -1,6 +1,6 @@
 /**
- * `<cusp-recent>`: the models that this browser keeps, and the switch that allows it to. It is empty where the browser cannot keep
- * any. It fires `cusp-files` with the file of a model that is to be opened, and `cusp-keeping` when keeping is switched on or off.
+ * `<cusp-recent>`: the models that this browser keeps, and the switch that permits it. Empty if the browser cannot keep any. Fires
+ * `cusp-files` with the file of a model to open, and `cusp-keeping` when keeping is switched on or off.
  */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
@@ -18,7 +18,7 @@ import { shown } from "../api/visible.js";
 
 const PROPERTIES = {
   language: given<Language>(languageOf()),
-  /** Without the switch. */
+  /** True to omit the switch. */
   bare: given(false),
   models: own<RecentModels | null>(null),
   list: own<readonly RecentModel[]>([]),
@@ -121,7 +121,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
     </li>`;
   }
 
-  /** What the browser's storage refuses is said. */
+  /** Runs work and reports a refusal by the browser's storage. */
   async #try(work: () => Promise<void>): Promise<void> {
     await work().catch(() => (this.said = visitWords(this.language).saved.failed));
   }
@@ -143,7 +143,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
     this.said = visitWords(this.language).recent.deleted(shown(model.name));
     await this.#read();
     await this.updateComplete;
-    // The button is gone, and the focus with it: to the next model, or the switch.
+    // The button has gone, and the focus with it: focus the next model, or the switch.
     const buttons = this.renderRoot.querySelectorAll<HTMLElement>("li .icon");
     (buttons[Math.min(place, buttons.length - 1)] ?? this.renderRoot.querySelector("input"))?.focus();
   }
@@ -165,7 +165,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
     this.list = isKeeping() ? await (this.models?.list() ?? []) : [];
   }
 
-  /** Draws the pictures: on canvases, since the page's policy allows no images from memory. */
+  /** Draws pictures on canvases, since the page's policy forbids images from memory. */
   async #draw(): Promise<void> {
     const { models, list } = this;
     for (const model of list) {
@@ -182,7 +182,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
 
 const MEGABYTE = 1e6;
 
-/** A size as people read it: `12.3 MB`. */
+/** A human-readable size: `12.3 MB`. */
 function size(bytes: number, { locale }: Language): string {
   const [unit, value] = bytes < MEGABYTE / 10 ? ["kilobyte", bytes / 1000] : ["megabyte", bytes / MEGABYTE];
   return new Intl.NumberFormat(locale, { style: "unit", unit, maximumSignificantDigits: 3 }).format(value).replace(" ", "\u00a0");

@@ -1,7 +1,7 @@
 import { beforeEach, expect, test } from "vitest";
 import { indexIn, indexWith, MOST_BYTES, MOST_MODELS, RecentModels, type RecentModel } from "./recent-models.js";
 
-/** A file system in memory that is full at `room` bytes, and stops working when `broken` says so of a file. */
+/** File system in memory that is full at `room` bytes, and fails for files for which `broken` returns true. */
 class Folder {
   readonly files = new Map<string, Blob>();
   readonly folders = new Map<string, Folder>();
@@ -15,7 +15,7 @@ class Folder {
   }
   getFileHandle(name: string, { create = false } = {}): Promise<unknown> {
     if (!create && !this.files.has(name)) return Promise.reject(new DOMException("", "NotFoundError"));
-    // As in browsers, a file exists from now on, and is replaced when its stream is closed.
+    // As in browsers, the file exists from now on, and is replaced when its stream closes.
     if (!this.files.has(name)) this.files.set(name, new Blob());
     let written = new Blob();
     return Promise.resolve({
@@ -55,7 +55,7 @@ beforeEach(async () => {
   turn = Promise.resolve();
 });
 
-/** A tab's models. Tabs take turns, as with Web Locks. */
+/** The models as seen by one tab. Tabs take turns, as with Web Locks. */
 function tab(): RecentModels {
   return new RecentModels({
     root: () => Promise.resolve(root as unknown as FileSystemDirectoryHandle),

@@ -1,28 +1,28 @@
 /**
- * The models that a person opened, kept in the browser's own file system (OPFS) for another visit, if the person allows it.
+ * Recently opened models, kept in the browser's own file system (OPFS) for another visit, if the user permits it.
  *
- * An index lists the models, newest first. It is written last when a model comes and first when one goes, and browsers replace
- * a file as a whole, so that it never lists half a model, even if the tab is closed meanwhile. Tabs take turns.
+ * An index lists the models, newest first. It is written last when a model is added and first when one is removed, and browsers replace a
+ * file atomically, so it never lists half a model, even if the tab is closed meanwhile. Tabs take turns.
  */
 import { canKeep } from "./keeping.js";
 
-/** The models that are kept: at most so many, and so many bytes in all. */
+/** Maximum number of models kept, and their total size in bytes. */
 export const MOST_MODELS = 8;
 export const MOST_BYTES = 200_000_000;
 
-/** Side of a picture in pixels: sharp on dense screens, too. */
+/** Side of a picture in pixels, sharp on dense screens. */
 export const PICTURE_PX = 120;
 
 export interface RecentModel {
-  /** A digest of name and content: a model that is opened twice is kept once. */
+  /** Digest of name and content; a model opened twice is kept once. */
   readonly id: string;
   readonly name: string;
   readonly bytes: number;
-  /** When it was last opened, in ms since 1970. */
+  /** Time of the last opening, in ms since 1970. */
   readonly opened_ms: number;
 }
 
-/** The index with a model that was opened now; the oldest go when there are too many or too much. */
+/** The index with a model opened now; the oldest are dropped when there are too many or they are too large. */
 export function indexWith(index: readonly RecentModel[], model: RecentModel): RecentModel[] {
   const others = index.filter(({ id }) => id !== model.id).slice(0, MOST_MODELS - 1);
   const kept = [model];
@@ -35,7 +35,7 @@ export function indexWith(index: readonly RecentModel[], model: RecentModel): Re
   return kept;
 }
 
-/** The index of its text; whatever is not one of ours is left out. */
+/** Parses the index; malformed entries are dropped. */
 export function indexIn(text: string): RecentModel[] {
   try {
     const list: unknown = JSON.parse(text);
@@ -53,16 +53,16 @@ function isModel(it: unknown): it is RecentModel {
 const FOLDER = "recent models";
 const INDEX = "index.json";
 
-/** Also the name under which tabs take turns. */
+/** Also the name of the lock by which tabs take turns. */
 const CHANNEL = "cusp recent models";
 
-/** What the models need of a browser. */
+/** Browser features used by the models. */
 export interface Place {
   /** The origin's own file system. */
   root(): Promise<FileSystemDirectoryHandle>;
-  /** Runs `work` while no other tab does. */
+  /** Runs `work` exclusively among all tabs. */
   alone<T>(work: () => Promise<T>): Promise<T>;
-  /** The list has changed. */
+  /** Called when the list has changed. */
   changed(): void;
 }
 
@@ -79,10 +79,7 @@ export class RecentModels {
     return indexIn((await textOf(folder)) ?? "");
   }
 
-  /**
-   * Keeps a model, or moves it to the front. If there is no room for it, the oldest go first; if it still does not fit, it is not
-   * kept.
-   */
+  /** Keeps a model, or moves it to the front. Removes the oldest models to make room; null if it still does not fit. */
   async keep(name: string, file: Blob): Promise<RecentModel | null> {
     if (file.size > MOST_BYTES) return null;
     const id = await digest(name, file);
@@ -107,7 +104,7 @@ export class RecentModels {
   /** The file of a model; null if another tab has deleted it. */
   async open({ id, name }: RecentModel): Promise<File | null> {
     const file = await fileOf(await this.#folder(), id);
-    // A copy: the model stays open when the kept one makes room for others.
+    // A copy, so that the model stays open when the kept file is removed.
     return file === null ? null : new File([await file.arrayBuffer()], name);
   }
 
@@ -154,13 +151,13 @@ export class RecentModels {
 
 const pictureName = (id: string): string => `${id}.png`;
 
-/** Deletes every file that belongs to no model of the index, such as what a closed tab left behind. */
+/** Deletes files that belong to no model of the index, such as those left by a closed tab. */
 async function sweep(folder: FileSystemDirectoryHandle, index: readonly RecentModel[]): Promise<void> {
   const own = new Set([INDEX, ...index.flatMap(({ id }) => [id, pictureName(id)])]);
   const names: string[] = [];
   for await (const name of folder.keys()) names.push(name);
   for (const name of names) {
-    // A file that is being read stays until the next time.
+    // A file being read stays until the next time.
     if (!own.has(name)) await folder.removeEntry(name).catch(() => undefined);
   }
 }
@@ -195,7 +192,7 @@ async function digest(name: string, file: Blob): Promise<string> {
 
 const isFull = (error: unknown): boolean => error instanceof Error && error.name === "QuotaExceededError";
 
-/** The recent models of this browser; null where it keeps none: see {@link canKeep}. */
+/** The recent models of this browser; null if it cannot keep any: see {@link canKeep}. */
 export function recentModels(): Promise<RecentModels | null> {
   return (found ??= find());
 }
@@ -219,7 +216,7 @@ async function find(): Promise<RecentModels | null> {
   });
 }
 
-/** Calls back whenever the list changes, here or in another tab. Returns what stops that. */
+/** Calls back whenever the list changes, here or in another tab. Returns a function that stops it. */
 export function watchRecent(changed: () => void): () => void {
   const channel = new BroadcastChannel(CHANNEL);
   channel.onmessage = changed;

@@ -7,10 +7,10 @@ import { readKept } from "./storage.js";
 
 afterEach(() => vi.unstubAllGlobals());
 
-/** A printer whose description is too long for an address. */
+/** A printer whose description is too long for a URL. */
 const wordy = { name: "own", pixels: [100, 100], pitch_um: [50, 50], volume_mm: [5, 5, 5], note: "x".repeat(2000) };
 
-/** Storage as browsers have it, or one that is full or switched off. */
+/** Fake storage: as in browsers, or full or disabled. */
 function store(isBroken = false): Map<string, string> {
   const texts = new Map<string, string>();
   const guard = <T>(value: T): T => {
@@ -25,7 +25,7 @@ function store(isBroken = false): Map<string, string> {
   return texts;
 }
 
-/** An element that has settings and nothing else. */
+/** An element with settings only. */
 class Element extends EventTarget {
   printer = fromAddress("").printer;
   model: SlicerElement["model"] = null;
@@ -46,7 +46,7 @@ class Element extends EventTarget {
     this.#query = toAddress(settings);
     this.dispatchEvent(new Event("cusp-change"));
   }
-  /** Plans with the printer as it is. */
+  /** Plans with the current printer. */
   plan(): void {
     this.result = { options: { printer: this.printer } } as NonNullable<Element["result"]>;
     this.dispatchEvent(new Event("cusp-plan"));
@@ -56,7 +56,7 @@ class Element extends EventTarget {
   }
 }
 
-/** A visit to the page at this address. */
+/** A visit to the page with this query. */
 function visit(asked: string, ...printers: string[]): Element {
   const element = new Element(...printers);
   remember(element, asked);
@@ -106,7 +106,7 @@ test("a printer of one's own is remembered once a plan was made with it, so neve
   first.plan();
   first.query = own;
   first.fail("bad-printer");
-  // The plan of the settings before, which had been under way.
+  // The plan of the previous settings, which was still running.
   first.dispatchEvent(new Event("cusp-plan"));
   expect(readKept("printer")).toBe("printer=mars");
   first.plan();

@@ -1,7 +1,4 @@
-/**
- * The printer that a person chose, and what belongs to it: the resin, its exposures and the motor step. They are there at the
- * next visit, unless the address asks for others.
- */
+/** Remembers the user's printer with its resin, exposures and motor step for the next visit, unless the URL sets others. */
 import type { SlicerElement } from "../element/slicer-element.js";
 import { isEqual } from "../element/state/plain.js";
 import { check, DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
@@ -10,7 +7,7 @@ import { readKept, writeKept } from "./storage.js";
 const REMEMBERED = ["printer", "resin", "exposure", "bottomExposure", "bottomLayers", "step"] as const satisfies readonly (keyof Settings)[];
 
 /**
- * The part of a query that is remembered, without fields that are out of range; empty if all is at its default.
+ * The part of a query to remember, without fields that are out of range; empty if all are at their defaults.
  *
  * @param printer the printer, if its description is too long for the query
  */
@@ -26,27 +23,27 @@ export function rememberedOf(query: string, printer?: Settings["printer"]): stri
 }
 
 /**
- * The settings to start with: those of the address, with the remembered ones if it asks for none of these. They go together,
- * since an exposure is right for one printer and one resin only.
+ * Initial settings: those of the URL, with the remembered ones if the URL sets none of these. They are used all or none, since an exposure
+ * is valid for only one printer and resin.
  */
 export function recalled(asked: string, kept: string): string {
   const own = rememberedOf(kept);
   const wanted = rememberedOf(asked);
-  // An address may lack only a printer whose description is too long for it.
+  // A URL may lack only a printer whose description is too long for it.
   const isOwn = wanted === rememberedOf(toAddress(fromAddress(own)));
   return own !== "" && (wanted === "" || isOwn) ? replaced(asked, own) : asked;
 }
 
-/** A query with other remembered settings. */
+/** A query with its remembered settings replaced. */
 function replaced(query: string, own: string): string {
   const rest = [...new URLSearchParams(query)].filter(([key]) => !REMEMBERED.some((it) => it === key));
   return new URLSearchParams([...rest, ...new URLSearchParams(own)]).toString();
 }
 
-/** What `remember` uses of the element. */
+/** The part of the element used by `remember`. */
 type Chooser = Pick<SlicerElement, "query" | "printer" | "model" | "result" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
 
-/** Starts the element with the settings of an address and the remembered ones, and remembers those that a person chooses. */
+/** Starts the element with the settings of a URL and the remembered ones, and remembers the user's choices. */
 export function remember(element: Chooser, asked: string): void {
   const chosen = (): string => rememberedOf(element.query, element.printer);
   const start = recalled(asked, readKept("printer") ?? "");
@@ -55,11 +52,11 @@ export function remember(element: Chooser, asked: string): void {
   const forget = (): void => {
     element.query = replaced(element.query, "");
   };
-  // The core may refuse a description with which no plan was made yet.
+  // The core may refuse a description that has not been used in a plan.
   const isGood = (): boolean => typeof element.printer === "string" || isEqual(element.printer, element.result?.options.printer);
   const keep = (): void => {
     const now = chosen();
-    // A printer that a link asks for is nobody's choice until it is changed.
+    // A printer from a link is not the user's choice until changed.
     if (now === last || !isGood()) return;
     writeKept("printer", now);
     last = now;
@@ -73,7 +70,7 @@ export function remember(element: Chooser, asked: string): void {
   });
 }
 
-/** Returns true if this version no longer knows the printer, which would only be refused. */
+/** Returns true if this version does not know the printer and would refuse it. */
 async function isUnknown(element: Chooser): Promise<boolean> {
   const known = await element.slicer.printers().catch(() => null);
   const { printer } = element;

@@ -1,6 +1,6 @@
 /**
- * `<cusp-saved>`: named settings to apply, save, rename and delete, and a link to the current ones. Its host gives it `query`, which
- * gives the current settings, and `link`, which gives their address; it fires `cusp-apply` with the query to apply.
+ * `<cusp-saved>`: named settings to apply, save, rename and delete, and a link to the current ones. Its host provides `query`, which
+ * returns the current settings, and `link`, which returns their URL. Fires `cusp-apply` with the query to apply.
  */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
@@ -17,7 +17,7 @@ import { readKept, writeKept } from "./storage.js";
 import { visitWords } from "./texts/visit/index.js";
 import { visitStyles } from "./visit-styles.js";
 
-/** What was said last, and the list to go back to if it can be undone. */
+/** The last message, and the list to restore if it can be undone. */
 interface Said {
   text: string;
   before?: readonly SavedSettings[];
@@ -28,12 +28,12 @@ const PROPERTIES = {
   link: given((): string => ""),
   language: given<Language>(languageOf()),
   list: own<readonly SavedSettings[]>([]),
-  /** What is typed as a new name. */
+  /** Text of the field for a new name. */
   typed: own(""),
-  /** The name that is being changed, and what is typed for it. */
+  /** The name being changed, and the text of its field. */
   renamed: own<{ from: string; to: string } | null>(null),
   said: own<Said | null>(null),
-  /** A link that the browser does not copy. */
+  /** A link that the browser refused to copy. */
   shown: own<string | null>(null),
 };
 
@@ -152,7 +152,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
     };
     const key = (event: KeyboardEvent): void => {
       if (event.key !== "Escape") return;
-      // It ends the renaming, and nothing else.
+      // Escape ends the renaming only.
       event.preventDefault();
       event.stopPropagation();
       this.renamed = null;
@@ -189,7 +189,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
   async #delete(name: string): Promise<void> {
     const before = this.#fresh();
     this.#write(withoutSaved(before, name), { text: visitWords(this.language).saved.deleted(name), before });
-    // The button is gone, and the focus with it.
+    // The button has gone, and the focus with it.
     await this.#focus("#undo");
   }
 
@@ -219,7 +219,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
     return found;
   }
 
-  /** The list as it is now: another tab may have changed it. */
+  /** The current list, which another tab may have changed. */
   #fresh(): SavedSettings[] {
     return savedIn(readKept("settings"));
   }

@@ -1,6 +1,6 @@
 /**
- * Settings with names, as queries. A name stands for what a person decides for many models; the height, the rotation and
- * what was placed by hand are one model's, so they are not part of it.
+ * Named settings, as queries. They hold the choices that apply to many models, but not the height, the rotation and points placed by hand,
+ * which belong to one model.
  */
 import { DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
 
@@ -11,20 +11,20 @@ export interface SavedSettings {
 
 export const LONGEST_NAME = 60;
 
-/** What belongs to the model. */
+/** Settings that belong to the model. */
 const ofModel = ({ height, rotation, points, drains, fill }: Settings): Partial<Settings> => ({ height, rotation, points, drains, fill });
 
-/** A query without what belongs to the model. */
+/** A query without the settings of the model. */
 export function savedQuery(query: string): string {
   return toAddress({ ...fromAddress(query), ...ofModel(DEFAULT_SETTINGS) });
 }
 
-/** A saved query with what belongs to the model that is open. */
+/** A saved query with the settings of the open model. */
 export function appliedTo(current: string, saved: string): string {
   return toAddress({ ...fromAddress(saved), ...ofModel(fromAddress(current)) });
 }
 
-/** The list of a kept text; whatever is not one of ours is left out. */
+/** Parses a saved list; malformed entries are dropped. */
 export function savedIn(text: string | null): SavedSettings[] {
   try {
     const list: unknown = JSON.parse(text ?? "[]");
@@ -39,12 +39,12 @@ function isSaved(it: unknown): it is SavedSettings {
   return typeof name === "string" && name.trim() !== "" && typeof query === "string";
 }
 
-/** Returns true if both are the same name to a person. */
+/** Returns true if both names look the same to a user. */
 export const isNamed = (name: string, other: string): boolean => name.trim().toLowerCase() === other.trim().toLowerCase();
 
 const COLLATOR = new Intl.Collator(undefined, { numeric: true });
 
-/** The list with these settings, in place of those of the same name, in alphabetical order. */
+/** The list with these settings, which replace those of the same name, in alphabetical order. */
 export function withSaved(list: readonly SavedSettings[], { name, query }: SavedSettings): SavedSettings[] {
   const own = { name: name.trim().slice(0, LONGEST_NAME), query };
   return [...withoutSaved(list, name), own].sort((a, b) => COLLATOR.compare(a.name, b.name));

@@ -1,8 +1,8 @@
 /**
- * Caches the page's own files, so that it opens without a network. All other requests are left alone.
+ * Caches the page's own files, so that it opens without a network. Does not handle any other request.
  *
- * The build inserts the list of files. Their names contain their hashes, so a new build has a new list, and the browser
- * sees that this script has changed. The new one waits until no page of the version before is open: those fetch parts of it yet.
+ * The build inserts the list of files. Their names contain their hashes, so a new build has a new list, and the browser detects that this
+ * script has changed. The new version waits until no page of the previous one is open, since those may still fetch parts of it.
  */
 declare const self: ServiceWorkerGlobalScope;
 declare const __FILES__: readonly string[];
@@ -35,7 +35,7 @@ self.addEventListener("fetch", (event) => {
   if (request.method !== "GET" || !addresses.has(address.href)) return;
   const answer = async (): Promise<Response> => {
     const kept = await caches.match(address.href);
-    // The page itself may have changed; the files that it names by hash have not.
+    // The page itself may have changed; files named by their hash cannot.
     if (request.mode !== "navigate" && kept !== undefined) return kept;
     return fetch(request).catch((error: unknown) => {
       if (kept !== undefined) return kept;

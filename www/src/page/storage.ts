@@ -1,9 +1,9 @@
 /**
- * Texts that this browser keeps between visits. A private window or a full storage may keep nothing, which is never an error:
- * the page then starts as on a first visit.
+ * Texts kept by this browser between visits. A private window or a full storage may keep nothing, which is never an error: the page then
+ * starts as on a first visit.
  */
 
-/** What is kept: a person's printer and resin, named settings, leave to keep models, and whether the tour and `?` are wanted. */
+/** Texts kept: the user's printer and resin, named settings, consent to keep models, and whether the tour and `?` are wanted. */
 export type KeptKey = "printer" | "settings" | "models" | "tour" | "question-mark";
 
 const PREFIX = "cusp.";
@@ -16,7 +16,7 @@ export function readKept(key: KeptKey): string | null {
   }
 }
 
-/** Keeps a text, or removes it if it is null. Returns whether the browser did so. */
+/** Stores a text, or removes it if null. Returns true on success. */
 export function writeKept(key: KeptKey, text: string | null): boolean {
   try {
     if (text === null) localStorage.removeItem(PREFIX + key);

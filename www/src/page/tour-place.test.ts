@@ -14,7 +14,7 @@ test("the card goes beside its target, on the side with room", () => {
 test("it never leaves the window", () => {
   expect(placeOf({ left: 0, top: 0, width: 300, height: 40 }, card, room)).toEqual([312, 12]);
   expect(placeOf({ left: 0, top: 780, width: 300, height: 400 }, card, room)).toEqual([312, 628]);
-  // Beside something as large as the window there is no room.
+  // A target as large as the window leaves no room.
   expect(placeOf({ left: 0, top: 0, width: 1280, height: 800 }, card, room)).toEqual([500, 628]);
 });
 

@@ -1,4 +1,4 @@
-/** Where the card of the tour goes: beside its target, all of it in sight. Lengths are in CSS pixels of the window. */
+/** Position of the tour's card: next to its target and fully visible. Lengths are in CSS pixels of the window. */
 
 export interface Box {
   readonly left: number;
@@ -14,17 +14,17 @@ export interface Size {
 
 const GAP_PX = 12;
 
-/** Narrower windows have no room beside anything. */
+/** Narrower windows have no room next to a target. */
 const NARROW_PX = 600;
 
 const clamped = (value: number, least: number, most: number): number => Math.max(least, Math.min(value, most));
 
 /**
- * The top left corner of a card: right of its target, left of it, below or above it, wherever it fits first; otherwise, and on a
- * phone, at the bottom of the window.
+ * Top left corner of a card: right of its target, left of it, below or above, wherever it fits first; otherwise, and on a phone, at the
+ * bottom of the window.
  *
- * @param target null where there is none to see
- * @param room the window, without what stays at its bottom
+ * @param target null if there is no visible target
+ * @param room the window, without fixed content at its bottom
  */
 export function placeOf(target: Box | null, card: Size, room: Size): readonly [left: number, top: number] {
   const right = room.width - card.width - GAP_PX;

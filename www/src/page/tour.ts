@@ -1,8 +1,8 @@
 /**
- * `<cusp-tour>`: three cards about the page, each beside what it is about, which has an outline meanwhile. It blocks nothing and
- * takes no focus. Next, Skip and Escape lead out of it; then it removes itself.
+ * `<cusp-tour>`: three cards about the page, each next to its target, which is outlined meanwhile. Blocks nothing and takes no focus. Next,
+ * Skip and Escape end it; then it removes itself.
  *
- * Its host gives it the `targets`, one a card: functions, since elements come and go; and `clearance`, the height of what stays at
+ * Its host provides the `targets`, one per card, as functions, since elements come and go; and `clearance`, the height of fixed content at
  * the bottom of the window.
  */
 import { css, html, nothing, type TemplateResult } from "lit";
@@ -20,14 +20,14 @@ const PROPERTIES = {
   targets: given<readonly Target[]>([]),
   clearance: given((): number => 0),
   language: given<Language>(languageOf()),
-  /** Counted from 0; -1 before the first. */
+  /** Index of the card; -1 before the first. */
   step: own(-1),
 };
 
 export class CuspTour extends elementWith(PROPERTIES) {
   readonly #resized = new ResizeObserver(() => this.#place());
   #seen: Element | null = null;
-  /** Where the focus was before it came here. */
+  /** Element that had the focus before the tour. */
   #from: HTMLElement | null = null;
 
   static override styles = [
@@ -109,7 +109,7 @@ export class CuspTour extends elementWith(PROPERTIES) {
   }
 
   override firstUpdated(): void {
-    // Screen readers read out what changes: the place for the words must be there before them.
+    // Screen readers announce changes, so the text's container must exist first.
     requestAnimationFrame(() => (this.step = 0));
     this.#resized.observe(document.body);
   }
@@ -141,7 +141,7 @@ export class CuspTour extends elementWith(PROPERTIES) {
     this.#place();
   }
 
-  /** Turns to the target of this step. */
+  /** Observes the target of this step. */
   #look(): void {
     const target = this.targets[this.step]?.() ?? null;
     if (target === this.#seen) return;
@@ -154,7 +154,7 @@ export class CuspTour extends elementWith(PROPERTIES) {
     const frame = this.renderRoot.querySelector<HTMLElement>(".frame");
     const card = this.renderRoot.querySelector<HTMLElement>(".card");
     if (frame === null || card === null) return;
-    // It may have come late, or have been replaced.
+    // The target may have appeared late, or have been replaced.
     this.#look();
     const box = this.#seen?.getBoundingClientRect();
     const isSeen = box !== undefined && box.width > 0 && box.top < innerHeight && box.bottom > 0;

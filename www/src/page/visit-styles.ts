@@ -1,4 +1,4 @@
-/** What the page's own panels share beyond the element's styles: they are as wide as their place, and lists have rows. */
+/** Shared styles of the page's own panels, in addition to the element's: full width, and rows of lists. */
 import { css } from "lit";
 import { lineIcon } from "../element/styles/shared.js";
 

@@ -1,6 +1,6 @@
 /**
- * What makes a visit easier: the printer of the last one, named settings, recent models, a short tour on the first one, and the
- * list of keys. Only what a person asks for is fetched, except the tour.
+ * Conveniences for visitors: the printer of the last visit, named settings, recent models, a short tour on the first visit, and the list of
+ * keys. Only requested parts are fetched, except the tour.
  */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Model } from "../api/index.js";
@@ -18,17 +18,17 @@ import type { Target } from "./tour.js";
 import "./visit.css";
 
 export interface VisitHost {
-  /** The element; called only after {@link Visit.start}. */
+  /** Returns the element; called only after {@link Visit.start}. */
   element(): SlicerElement;
-  /** The address of the current settings. */
+  /** URL of the current settings. */
   link(): string;
   open(files: readonly File[]): void;
-  /** Draws the page again. */
+  /** Redraws the page. */
   draw(): void;
   say(notice: Notice): void;
-  /** What the tour shows, a step each. */
+  /** Targets of the tour, one per step. */
   targets: readonly Target[];
-  /** The height of what stays at the bottom of the window, in CSS pixels. */
+  /** Height of fixed content at the bottom of the window, in CSS pixels. */
   clearance(): number;
 }
 
@@ -41,7 +41,7 @@ export class Visit {
     this.#host = host;
   }
 
-  /** The buttons for the header, with their panels. */
+  /** Buttons for the header, with their panels. */
   tools(language: Language): TemplateResult {
     const words = pageWords(language);
     const { link } = this.#host;
@@ -60,7 +60,7 @@ export class Visit {
     </div>`;
   }
 
-  /** For a page without a model: the recent ones, if any are kept. */
+  /** Recent models, for a page without a model; null if none are kept. */
   recent(language: Language): TemplateResult | null {
     if (!this.#canKeep || !isKeeping()) return null;
     return html`<section class="recent">
@@ -77,20 +77,20 @@ export class Visit {
     return html`<cusp-recent .language=${language} .bare=${isBare} @cusp-files=${this.#open} @cusp-keeping=${change}></cusp-recent>`;
   }
 
-  /** Starts the element with the settings of an address, now that it is in the page. */
+  /** Starts the element, once in the page, with the settings of a URL. */
   start(asked: string): void {
     const element = this.#host.element();
     remember(element, asked);
     element.addEventListener("cusp-load", () => void this.#keep());
     element.addEventListener("cusp-plan", () => {
-      // Where nothing is kept, every visit would be the first.
+      // If nothing can be stored, every visit would look like the first, so the tour is not shown.
       if (readKept("tour") === null && writeKept("tour", "shown")) this.#tour().catch(() => undefined);
     });
     addEventListener("keydown", this.#key);
     if (this.#canKeep && isKeeping()) void this.#asked(() => this.#fetchRecent());
   }
 
-  /** Fetches the texts of a language that is to be shown next. */
+  /** Fetches the texts of the next language. */
   speak(language: Language): Promise<void> {
     return this.#asked(() => this.#fetchWords(language));
   }
@@ -100,7 +100,7 @@ export class Visit {
     await fetchVisitWords(language);
   }
 
-  /** Does what somebody asked for, whose code is fetched; says so where it cannot be, in place of an empty flyout. */
+  /** Runs requested work whose code is fetched. If that fails, reports it and closes the empty flyout. */
   async #asked(work: () => Promise<void>, flyout?: string): Promise<void> {
     try {
       await work();
@@ -117,7 +117,7 @@ export class Visit {
     event.preventDefault();
   };
 
-  /** Opens the browser's dialog for files. */
+  /** Opens the browser's file dialog. */
   #choose(): void {
     const input = Object.assign(document.createElement("input"), { type: "file", multiple: true });
     input.addEventListener("change", (event) => this.#host.open(chosen(event)));
@@ -147,7 +147,7 @@ export class Visit {
   async #fetchSaved(): Promise<void> {
     await this.#fetchWords(this.#language);
     await import("./saved-list.js");
-    // Which of the saved settings are the current ones may have changed since it was last open.
+    // The current settings may have changed since the list was last open, and with them the marked entry.
     document.querySelector("cusp-saved")?.requestUpdate();
   }
 
@@ -160,7 +160,7 @@ export class Visit {
     await list.show();
   }
 
-  /** Shows the tour, unless it is on show. */
+  /** Shows the tour, unless it is already shown. */
   async #tour(): Promise<void> {
     await this.#fetchWords(this.#language);
     const { CuspTour } = await import("./tour.js");
@@ -170,24 +170,24 @@ export class Visit {
     document.body.prepend(Object.assign(new CuspTour(), { targets, clearance, language: this.#language }));
   }
 
-  /** Keeps the open model if the person allows it, with its picture once it is planned. */
+  /** Keeps the open model if the user permits it, with its picture once planned. */
   async #keep(): Promise<void> {
     const element = this.#host.element();
     const { model } = element;
-    // The example is no file.
+    // The example is not a file.
     if (model === null || !(model.file instanceof File) || !isKeeping()) return;
     const { file, name } = model;
     try {
       const { recentModels, PICTURE_PX } = await import("./recent-models.js");
       const models = await recentModels();
       const kept = await models?.keep(name, file);
-      // Switched off meanwhile, perhaps in another tab.
+      // Keeping was switched off meanwhile, perhaps in another tab.
       if (!isKeeping()) return await models?.deleteAll();
       if (models === null || kept == null) return this.#host.say({ says: "notKept", name });
       if ((await models.picture(kept)) !== null) return;
       await planned(element, model);
       if (element.model !== model) return;
-      // Without WebGL there is no picture.
+      // Without WebGL, there is no picture.
       await element.thumbnail(PICTURE_PX).then((png) => models.setPicture(kept, png)).catch(() => undefined);
     } catch {
       this.#host.say({ says: "notKept", name });

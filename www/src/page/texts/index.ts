@@ -8,7 +8,7 @@ export interface PageWords {
   tagline: string;
   private: string;
   drop: string;
-  /** Names the choice of languages. */
+  /** Label of the language list. */
   languages: string;
   noModel: string;
   tryExample: string;
@@ -18,18 +18,18 @@ export interface PageWords {
   recent: string;
   saved: string;
   keys: string;
-  /** What went wrong with the page itself, and what to do about it. */
+  /** Messages about errors of the page itself, with advice. */
   notices: {
-    /** A part could not be loaded. */
+    /** Shown if a part could not be loaded. */
     part: string;
-    /** Nor could the reader of print files, for this one. */
+    /** Shown if the reader of print files could not be loaded for this file. */
     reader: (name: string) => string;
-    /** This browser does not keep the model. */
+    /** Shown if this browser did not keep the model. */
     notKept: (name: string) => string;
     reload: string;
     close: string;
   };
-  /** What the page promises: a heading, and a sentence. */
+  /** The page's promises: a heading and a sentence each. */
   points: readonly (readonly [heading: string, sentence: string])[];
 }
 

@@ -1,4 +1,4 @@
-/** The texts of what is fetched when a person asks for it, as they are themselves: named settings, recent models, the tour, the keys. */
+/** Texts of parts that are fetched on request: named settings, recent models, the tour, the keys. The texts are also fetched on request. */
 import type { Language } from "../../../texts/index.js";
 import type { Does, KeyName } from "../../key-table.js";
 import { Catalogues } from "../../../texts/catalogues.js";
@@ -10,37 +10,37 @@ export interface VisitWords {
     /** Label of the field for a name. */
     name: string;
     save: string;
-    /** In place of `save` where the name is in use. */
+    /** Replaces `save` if the name is in use. */
     replace: string;
     rename(name: string): string;
     delete(name: string): string;
-    /** What belongs to named settings. */
+    /** Explains which settings are saved. */
     about: string;
     saved(name: string): string;
     deleted(name: string): string;
     undo: string;
-    /** The browser keeps nothing. */
+    /** Shown if the browser keeps nothing. */
     failed: string;
     copyLink: string;
     copied: string;
-    /** Where the browser does not let the page copy: label of a field with the link. */
+    /** Label of a field with the link, if the browser does not permit copying. */
     copyByHand: string;
     /** Saves the current settings as a file. */
     toFile: string;
-    /** What the file is for, and what is not in it. */
+    /** Explains the file's purpose and its omissions. */
     aboutFile: string;
-    /** The file was saved. */
+    /** Shown when the file was saved. */
     inFile: string;
   };
   recent: {
     keep: string;
-    /** What is kept, where, and what switching it off does. */
+    /** Explains which models are kept, where, and the effect of switching it off. */
     about(models: string, bytes: string): string;
     none: string;
     delete(name: string): string;
     deleted(name: string): string;
     allDeleted: string;
-    /** Another tab deleted the model. */
+    /** Shown if another tab has deleted the model. */
     gone(name: string): string;
   };
   tour: {
@@ -55,15 +55,15 @@ export interface VisitWords {
     title: string;
     close: string;
     everywhere: string;
-    /** The tools that place support points and drain holes. */
+    /** Heading of the keys for placing support points and drain holes. */
     points: string;
-    /** The slider of layers and the chart. */
+    /** Heading of the keys for the layer slider and the chart. */
     layers: string;
     mask: string;
     directions: string;
     does: Readonly<Record<Does, string>>;
     names: Readonly<Record<KeyName, string>>;
-    /** The switch for `?`. */
+    /** Label of the switch for `?`. */
     questionMark: string;
     tour: string;
   };
