@@ -1,6 +1,6 @@
 /**
- * `<cusp-print>`: what is in a print file, whoever wrote it: its settings, what is wrong with it, its masks, and what it prints in
- * three dimensions. Import this module lazily: it loads the reader, and the 3-D view with three.js.
+ * `<cusp-print>`: the content of a print file from any slicer: its settings, faults and masks, and the printed model in 3-D. Import this
+ * module lazily: it loads the reader, and the 3-D view with three.js.
  */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { isAbort, said, SlicerError } from "../api/error.js";
@@ -38,7 +38,7 @@ const PROPERTIES = {
 export class CuspPrint extends elementWith(PROPERTIES) {
   #life = new AbortController();
   #texts: { of: Language; words: ViewTexts } | null = null;
-  /** Whose masks are being fetched. A worker that is terminated never answers. */
+  /** The print whose mask is being fetched. A terminated worker never answers. */
   #fetching: State | null = null;
 
   static override styles = [
@@ -274,7 +274,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       const [pitch_mm, pitch_y_mm] = print.pixel_mm;
       const report = {
         layers: layers.length,
-        // From the plate, on which the first layer lies.
+        // Boundaries from the plate, on which the first layer lies.
         z_mm: [(layers[0]?.z_mm ?? 0) - (thickness_mm[0] ?? 0), ...layers.map((layer) => layer.z_mm)],
         thickness_mm,
         mask: { pitch_mm, pitch_y_mm },
@@ -287,7 +287,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       if (error instanceof SlicerError) return void this.dispatchEvent(new CustomEvent("cusp-missing"));
       const described: PrintFileError | ReadError = isCoded(error) ? error : { code: "crash", detail: { system: said(error) } };
       this.state = { is: "failed", error: described };
-      // No print file at all: whoever opened it may know better.
+      // Not a print file: the host may try something else.
       if (["unknown-kind", "unknown-zip", "model"].includes(described.code)) this.dispatchEvent(new CustomEvent("cusp-unknown"));
     }
   }
@@ -331,7 +331,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
   };
 }
 
-/** Registers the element and those that it shows. */
+/** Registers the element and the elements that it contains. */
 export function definePrint(): void {
   define("cusp-view", CuspView);
   define("cusp-mask", CuspMask);

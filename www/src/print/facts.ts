@@ -1,4 +1,4 @@
-/** What a print file says of the print as a whole, as names and texts. What it does not say is left out. */
+/** Properties of a whole print file, as names and texts. Missing ones are omitted. */
 import type { Format } from "../texts/format.js";
 import type { Language } from "../texts/index.js";
 import { textsOf } from "./texts/index.js";

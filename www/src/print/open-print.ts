@@ -1,4 +1,4 @@
-/** Opens a print file in a worker of its own, and decodes it. */
+/** Opens and decodes a print file in its own worker. */
 import * as Comlink from "comlink";
 import { SlicerError } from "../api/error.js";
 import type { Mask } from "../api/index.js";
@@ -6,10 +6,10 @@ import { partError } from "../element/parts/part.js";
 import { listenTo, told, untold } from "../api/told.js";
 import type { PrintFileError, Read, ReaderWorker } from "./wire.js";
 
-/** What can go wrong on this side of the reader. */
+/** Errors raised outside the reader. */
 export type ReadError = { code: "file-unreadable" } | { code: "crash"; detail: { system: string } };
 
-/** A print file that is open. */
+/** An open print file. */
 export interface Print extends Read {
   name: string;
   /** The mask of a layer, counted from 0; null if it is damaged. */
@@ -56,7 +56,7 @@ function crash(system: string): ReadError {
   return { code: "crash", detail: { system } };
 }
 
-/** Returns true if this is an error that the reader describes. */
+/** Returns true if the reader, or this file, describes the error by a code. */
 export function isCoded(error: unknown): error is PrintFileError | ReadError {
   return typeof error === "object" && error !== null && !(error instanceof Error) && "code" in error;
 }

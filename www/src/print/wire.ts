@@ -1,4 +1,4 @@
-/** What crosses between the page and the worker that reads print files. The types of the core are those of its package. */
+/** Types that cross between the page and the worker that reads print files. Types of the core are those of its package. */
 import type { Inspection } from "../../pkg/cusp_reader.js";
 
 export type { FileFinding, Inspection, LayerInspection, PrintFileError } from "../../pkg/cusp_reader.js";
@@ -15,19 +15,19 @@ export interface Read {
   inspection: Inspection;
   /** Columns and rows of the masks, seen from above. */
   pixels: readonly [number, number];
-  /** Sides of their pixels in x and y, mm. */
+  /** Pixel size in x and y, mm. */
   pixel_mm: readonly [number, number];
-  /** The surface of what is printed, coarse enough to look at: nine numbers a facet, mm. Empty if there is too much of it. */
+  /** Surface of the printed model at a coarse resolution for display: nine numbers per facet, mm. Empty if it would be too large. */
   surface: Float32Array;
-  /** The largest preview; null without one that can be read. */
+  /** The largest readable preview; null if there is none. */
   preview: Picture | null;
 }
 
 /** The worker's interface through comlink. It throws plain objects with a code. */
 export interface ReaderWorker {
-  /** Loads the reader. To be called once, before anything else. */
+  /** Loads the reader. Must be called once, first. */
   start(): Promise<void>;
-  /** Opens a print file and decodes all of it. `progress` goes from 0 to 1. */
+  /** Opens a print file and decodes all of it. `progress` runs from 0 to 1. */
   read(file: Blob, progress: (fraction: number) => void): Promise<Read>;
   /** One bit per pixel, seen from above, rows from the top, most significant bit first, ⌈width / 8⌉ bytes per row. */
   mask(layer: number): Uint8Array;

@@ -14,7 +14,7 @@ async function start(): Promise<void> {
   await init({ module_or_path: new URL("../../pkg/cusp_reader_bg.wasm", import.meta.url) });
 }
 
-/** The largest preview that can be read. */
+/** The largest readable preview. */
 function largest(reader: PrintReader, previews: number): Picture | null {
   const pictures = Array.from({ length: previews }, (_, place) => reader.preview(place)).filter((it) => it !== null);
   return pictures.sort((a, b) => b.width * b.height - a.width * a.height)[0] ?? null;

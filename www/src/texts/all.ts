@@ -1,4 +1,4 @@
-/** Fetches every language, for tests: they ask for texts without waiting. */
+/** Fetches all languages, for tests, which need texts synchronously. */
 import { fetchLanguage, LANGUAGES } from "./index.js";
 
 for (const code of LANGUAGES) await fetchLanguage(code);

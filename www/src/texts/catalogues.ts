@@ -1,4 +1,4 @@
-/** Texts of which English is always there, and each other language is fetched when somebody wants it. */
+/** Text catalogues: English is built in, and the other languages are fetched on demand. */
 import type { LanguageCode } from "./index.js";
 
 export class Catalogues<Words> {
@@ -11,14 +11,14 @@ export class Catalogues<Words> {
     this.#loaders = loaders;
   }
 
-  /** English stands in for a language that cannot be fetched. */
+  /** If a language cannot be fetched, English replaces it. */
   async fetch(code: LanguageCode): Promise<void> {
     if (code === "en" || this.#there.has(code)) return;
     const { words } = await this.#loaders[code]().catch(() => ({ words: this.#english }));
     this.#there.set(code, words);
   }
 
-  /** The texts of a language that was fetched. */
+  /** Texts of a fetched language. */
   of(code: LanguageCode): Words {
     return this.#there.get(code) ?? this.#english;
   }

@@ -1,8 +1,8 @@
-/** Formats numbers as a language writes them. Lengths are given in mm, times in s. */
+/** Number formats of a language. Lengths are given in mm, times in s. */
 
 import type { Metric, Unit } from "../api/wire.js";
 
-/** How a language writes hours and minutes after a number. */
+/** The language's units for hours and minutes after a number. */
 export interface TimeUnits {
   hours: string;
   minutes: string;
@@ -10,7 +10,7 @@ export interface TimeUnits {
 
 export type Format = ReturnType<typeof formatOf>;
 
-/** Word forms by plural category of the language; `other` where a category has none. */
+/** Word forms by plural category of the language; `other` for categories without one. */
 export type Forms = Partial<Record<Intl.LDMLPluralRule, string>> & { other: string };
 
 export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
@@ -26,13 +26,13 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
 
   /** A count: `1,200`. */
   const count = (value: number): string => number(value, { maximumFractionDigits: 0 });
-  /** The form of a word that goes with a number: `layer`, `layers`. */
+  /** The word form for a number: `layer`, `layers`. */
   const plural = (value: number, forms: Forms): string => forms[rules.select(value)] ?? forms.other;
-  /** A count of something, in words: `1 layer`, `1,200 layers`. */
+  /** A number with its noun: `1 layer`, `1,200 layers`. */
   const counted = (value: number, forms: Forms): string => `${count(value)} ${plural(value, forms)}`;
   /** A height or a size without its unit, to 0.1 mm: `60.0`. */
   const size = (value: number): string => number(value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
-  /** A number on an axis, or as it was typed. */
+  /** A number on an axis, or as typed. */
   const tick = (value: number): string => number(value, { maximumFractionDigits: 3 });
   /** A number to at most six decimals. */
   const exact = (value: number): string => number(value, { maximumFractionDigits: 6 });
@@ -42,7 +42,7 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
   /** An error or a tolerance with the unit of its metric. */
   const error = (metric: Metric, value: number): string => {
     if (metric === "area") return percent(value, 2);
-    // The usual deviation has four decimals.
+    // The default deviation has four decimals.
     if (metric === "deviation") return `${number(value, { maximumFractionDigits: 4 })}\u00a0mm`;
     return metric === "volume" ? volume(value) : fine(value);
   };
@@ -62,14 +62,14 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
     error,
     /** A length to at most six decimals: `0.0125 mm`. */
     mm: (value: number): string => `${exact(value)}\u00a0mm`,
-    /** A number to at most six decimals with its unit; without a unit it is in that of the metric. */
+    /** A number to at most six decimals with its unit; by default the unit of the metric. */
     measure: (value: number, unit: Unit, metric: Metric = "cusp"): string =>
       unit === "" ? error(metric, value) : `${exact(value)}\u00a0${unit}`,
     /** A thickness, tolerance or error with its unit, to the micrometre, without trailing zeros: `0.05 mm`. */
     fine,
-    /** A height on the model with its unit, always with three decimals, so that its width does not jump: `12.340 mm`. */
+    /** A height on the model with its unit, always with three decimals to keep its width: `12.340 mm`. */
     height: (mm: number): string => `${number(mm, micrometres)}\u00a0mm`,
-    /** The same without its unit. */
+    /** A height without its unit, likewise. */
     bareHeight: (mm: number): string => number(mm, micrometres),
     /** A fraction as a percentage: `34 %` or `34%`, depending on the language, with at most this many decimals. */
     percent,
@@ -81,7 +81,7 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
     seconds: (value: number): string => `${number(value, { maximumFractionDigits: 1 })}\u00a0s`,
     /** The area of a section: `123.5 mm²`. */
     area: (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`,
-    /** The time of a print, known to the minute at best: `2 h 14 min`. */
+    /** Print time to the minute, as estimates are no more accurate: `2 h 14 min`. */
     time(seconds: number): string {
       const whole = Math.round(seconds / 60);
       if (whole < 1) return `<\u00a01\u00a0${minutes}`;
@@ -94,9 +94,9 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
       if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
       return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
     },
-    /** All of several: `a.stl and b.stl`. */
+    /** A list of all items: `a.stl and b.stl`. */
     all: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "conjunction" }).format(items),
-    /** A choice of one from several: `.ctb or .goo`. */
+    /** A list of alternatives: `.ctb or .goo`. */
     either: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "disjunction" }).format(items),
     /** Width × depth × height: `60.0 × 46.5 × 59.5 mm`. */
     dimensions: (mm: readonly [number, number, number]): string => `${mm.map(size).join(" × ")}\u00a0mm`,

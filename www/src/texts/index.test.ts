@@ -23,7 +23,7 @@ test("numbers as people read them", () => {
 test("a language is the first with a catalogue, with the numbers of its country", () => {
   expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
   expect(languageOf("not a locale").locale).toBe("en");
-  // What browsers report as their language if the system has none.
+  // Locales that browsers report if the system has none.
   for (const locale of ["C", "POSIX", "en-US@posix", "de_DE.UTF-8", ""]) {
     expect(languageOf(locale).format.size(1.5)).toBe("1.5");
     expect(languageOf(locale, "fr").locale).toBe("fr");

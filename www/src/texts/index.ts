@@ -1,6 +1,6 @@
 /**
- * The languages of the element: one catalogue each; the compiler holds all of them to the same keys. English is always there;
- * each other language is fetched when somebody wants it.
+ * Languages of the element: one catalogue each, with the same keys as enforced by the compiler. English is built in; the others are fetched
+ * on demand.
  */
 import * as en from "./en/index.js";
 import { formatOf, type Format } from "./format.js";
@@ -10,11 +10,11 @@ export type { Format } from "./format.js";
 /** The texts of any language. */
 export type Texts = ReturnType<typeof en.en>;
 
-/** A language in use: its texts, and how it writes numbers. */
+/** A language in use: its texts and number formats. */
 export interface Language {
-  /** The language of its catalogue. */
+  /** Language of the catalogue. */
   code: LanguageCode;
-  /** BCP 47, as requested if there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
+  /** BCP 47 tag, as requested if there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
   locale: string;
   texts: Texts;
   format: Format;
@@ -37,7 +37,7 @@ export type LanguageCode = keyof typeof LOADERS;
 
 export const LANGUAGES = Object.keys(LOADERS) as LanguageCode[];
 
-/** What each language calls itself. */
+/** Each language's own name. */
 export const LANGUAGE_NAMES: Readonly<Record<LanguageCode, string>> = {
   en: "English",
   de: "Deutsch",
@@ -52,7 +52,7 @@ const catalogues = new Map<LanguageCode, Catalogue>([["en", ENGLISH]]);
 const loading = new Map<LanguageCode, Promise<void>>();
 const made = new Map<string, Language>();
 
-/** The first of these locales with a language; English if there is none, or if that language is not there yet. */
+/** The first of these locales with a language; English if there is none, or if it has not been fetched. */
 export function languageOf(...locales: readonly string[]): Language {
   const wanted = locales.find((locale) => codeOf(locale) !== null) ?? "en";
   const locale = catalogues.has(codeOf(wanted) ?? "en") ? wanted : "en";
@@ -67,8 +67,8 @@ export function languageOf(...locales: readonly string[]): Language {
 }
 
 /**
- * Fetches the language that {@link languageOf} would take for these locales; null if it is there already, or could not be
- * fetched before: English stands in for it then.
+ * Fetches the language that {@link languageOf} would choose for these locales. Null if it is present, or if an earlier fetch failed and
+ * English replaces it.
  */
 export function fetchLanguage(...locales: readonly string[]): Promise<void> | null {
   const code = codeFor(...locales);
@@ -84,7 +84,7 @@ export function fetchLanguage(...locales: readonly string[]): Promise<void> | nu
   return arriving;
 }
 
-/** The first of these locales with a language, whether it is there or not; English if there is none. */
+/** The first of these locales with a language, fetched or not; English if there is none. */
 export function codeFor(...locales: readonly string[]): LanguageCode {
   return locales.map(codeOf).find((code) => code !== null) ?? "en";
 }

@@ -1,4 +1,4 @@
-/** The texts of failures. Few things fail, and there is much to say of each: they are fetched with the first failure. */
+/** Texts about failures. They are long and rarely needed, so they are fetched with the first failure. */
 import { Catalogues } from "./catalogues.js";
 import { problems as en, type ProblemTexts } from "./en/problems.js";
 import type { Format } from "./format.js";

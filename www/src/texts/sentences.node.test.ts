@@ -1,4 +1,4 @@
-/** Every code in every language, with the details and sentences that the core has recorded. */
+/** Every code in every language, for the details and sentences recorded from the core. */
 import { readFile } from "node:fs/promises";
 import { expect, test } from "vitest";
 import type { ErrorDetails } from "../api/error.js";
@@ -8,7 +8,7 @@ import { fetchProblemTexts } from "./problems.js";
 interface Sample {
   code: string;
   detail?: Record<string, unknown>;
-  /** What the command line says. */
+  /** Sentence of the command line. */
   message: string;
 }
 
@@ -19,7 +19,7 @@ const core = JSON.parse(await readFile(new URL("../../../tests/problems.json", i
   warnings: Sample[];
 };
 
-/** Errors that only the page has. */
+/** Errors raised only by the page. */
 const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   "bad-attribute": { attribute: "metric", value: "beauty", known: ["cusp", "area"] },
   "no-model": null,
@@ -40,7 +40,7 @@ const OWN: { [Code in keyof ErrorDetails]?: ErrorDetails[Code] } = {
   crash: { system: "unreachable" },
 };
 
-/** A sample, and one with the other case of its best uniform layers, which there may be or not. */
+/** A sample, and one with the alternative of its optional best uniform layers. */
 function bothCases(sample: Sample): Sample[] {
   const { detail } = sample;
   if (detail?.["best"] === undefined) return [sample];
@@ -57,12 +57,12 @@ const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; w
   return { format, errors: PROBLEMS.get(code)?.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
 };
 
-/** Details that offers show, or that readers do not need. */
+/** Details shown by offers, or not needed by readers. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
-/** Words that a catalogue translates. */
+/** Words translated by a catalogue. */
 const TRANSLATED = ["work", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
-/** Returns true if a sentence contains a number as the language writes it, or a name unchanged. */
+/** Returns true if a sentence contains a number in the language's format, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {
   if (value === null) return true;
   if (typeof value === "object") return Object.entries(value).every(([key, item]) => TRANSLATED.includes(key) || says(sentence, item, format));
@@ -103,7 +103,7 @@ test("no two languages say the same", () => {
   }
 });
 
-/** A sentence without what page and command line write differently: numbers, capitals and the full stop. */
+/** A sentence without differences between page and command line: numbers, capitals and the full stop. */
 const bare = (sentence: string): string =>
   sentence
     .toLowerCase()
@@ -116,13 +116,13 @@ test("in English the page says what the command line says", () => {
   const { errors, warnings } = sentencesOf("en");
   for (const { code, detail, message } of core.errors) {
     const said = bare(errors[code]?.(detail ?? null, "cusp") ?? "");
-    // The offers show what would help.
+    // The offers show the fixes.
     if (code === "infeasible") expect(said).toContain("even a layer of # mm exceeds it");
     else expect(said).toBe(bare(message));
   }
   for (const { code, detail, message } of core.warnings) {
     const said = bare(warnings[code]?.(detail ?? null, "cusp") ?? "");
-    // The command line names a command alone.
+    // Only the command line names a command.
     if (code === "untried-thicknesses") expect(said).toContain(bare(message).split(";")[0]);
     else expect(said).toBe(bare(message));
   }

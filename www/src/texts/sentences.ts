@@ -1,4 +1,4 @@
-/** What the catalogues say about failures and warnings: a sentence for each code, made from its details. */
+/** Types of the catalogues' sentences: one for each code of a failure or warning, made from its details. */
 import type { ErrorCode, ErrorDetails } from "../api/error.js";
 import type { WarningCode, WarningDetails } from "../api/warning.js";
 import type { FileKind, GpuFault, Metric, Quantity, StlExpected, Work } from "../api/wire.js";
@@ -7,10 +7,10 @@ import type { FileKind, GpuFault, Metric, Quantity, StlExpected, Work } from "..
 export type ErrorSentences = { readonly [Code in ErrorCode]: (detail: ErrorDetails[Code], metric: Metric) => string };
 export type WarningSentences = { readonly [Code in WarningCode]: (detail: WarningDetails[Code]) => string };
 
-/** Nouns with their article, at the beginning of a sentence. */
+/** Nouns with their article, as at the beginning of a sentence. */
 export type QuantityNouns = Readonly<Record<Quantity, string>>;
 export type GpuFaults = Readonly<Record<GpuFault, string>>;
-/** What takes time as the subject of a sentence, and what to do about it as its end. */
+/** Slow work as the subject of a sentence, and the advice as its end. */
 export type WorkWords = Readonly<Record<Work, readonly [subject: string, way: string]>>;
 export type StlNouns = Readonly<Record<StlExpected, string>>;
 
@@ -31,16 +31,16 @@ export const STL_KEYWORDS = {
   endfacet: "`endfacet`",
 } as const;
 
-/** What the border of the core adds to a message of its parser. */
+/** Prefix that the core's bindings add to a message of the parser. */
 const BORDER = /^Failed to deserialize JsValue into type `[^`]*`: (Error: )?/;
 
-/** A message of the system as the end of a sentence: it may already have a full stop. */
+/** A system message as the end of a sentence: it may already have a full stop. */
 export function ended(system: string): string {
   const said = system.replace(BORDER, "").trim();
   return /[.!?。！？]$/.test(said) ? said : `${said}.`;
 }
 
-/** A sentence with the noun for a file of something flat; null for other kinds. */
+/** A sentence with the noun for a flat kind of file; null for other kinds. */
 export function flatKind<T>(kind: FileKind, nouns: { picture: T; document: T; drawing: T }, sentence: (noun: T) => string): string | null {
   if (kind === "png" || kind === "jpeg") return sentence(nouns.picture);
   if (kind === "pdf") return sentence(nouns.document);

@@ -1,5 +1,5 @@
 /**
- * `<cusp-workbench>`: the page's own element, all of a slicer on one screen. It has the properties, events and gestures of
+ * `<cusp-workbench>`: the page's own element, with a whole slicer on one screen. It has the properties, events and gestures of
  * `<cusp-slicer>`, and another layout of the same panels.
  */
 import type { TemplateResult } from "lit";
@@ -24,7 +24,7 @@ export class CuspWorkbench extends SlicerElement {
   static override styles = [theme, shared, modelStyles, summaryStyles, progressStyles, problemStyles, partStyles, copiesStyles, workbenchStyles];
 
   #isWide = true;
-  /** The last one: a plan is made at once, and many want nothing but its file. */
+  /** Starts at the last step: a plan is made at once, and many users need only its file. */
   #step: Step = "slice";
   #answer: AnswerPanel = "quality";
   #sheet: Sheet | null = null;
@@ -77,15 +77,15 @@ export class CuspWorkbench extends SlicerElement {
     await this.updateComplete;
     const title = this.renderRoot.querySelector<HTMLElement>("#step-title");
     title?.closest(".tab-row")?.nextElementSibling?.scrollTo(0, 0);
-    // Whoever reads the steps one after the other begins each at its top.
+    // After the button at a panel's foot, focus the next title, so that reading continues there.
     if (from === "foot") title?.focus();
   }
 
-  /** Opens a sheet of a narrow screen, or closes the one that is open: the button that opens it takes over the focus that it has. */
+  /** Opens a sheet of a narrow screen, or closes the open one. On closing, the focus returns to the button of the sheet. */
   #open(sheet: Sheet | null): void {
     const root = this.renderRoot as ShadowRoot;
     const { activeElement } = root;
-    // Where a press does not focus, as in Safari, nothing has the focus.
+    // If a press does not focus, as in Safari, there is no active element.
     if (sheet === null && (activeElement === null || activeElement.closest(".sheet") !== null)) {
       root.querySelector<HTMLElement>(".path [aria-current], .bar [aria-expanded=true]")?.focus();
     }

@@ -1,4 +1,4 @@
-/** A vertical slider through the layers, as high as the plot beside it: its thumb stands at the height of the layer. */
+/** Vertical layer slider with the height of the neighbouring plot: its thumb is at the height of the layer. */
 import { css, html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
@@ -9,7 +9,7 @@ import { workbenchWords } from "./texts/index.js";
 import { elementWith, given, own } from "../view/properties.js";
 import { layerAt } from "../view/scene/lookup.js";
 
-/** Layers that a key moves by. */
+/** Number of layers that a key moves by. */
 const STEPS: Readonly<Record<string, number>> = {
   ArrowUp: 1,
   ArrowRight: 1,
@@ -21,7 +21,7 @@ const STEPS: Readonly<Record<string, number>> = {
   End: Number.POSITIVE_INFINITY,
 };
 
-/** Height of the thumb in pixels: the slider is longer by this than what it spans. */
+/** Height of the thumb in pixels, by which the slider is longer than its span. */
 const THUMB_PX = 16;
 
 interface Span {
@@ -29,13 +29,13 @@ interface Span {
   bottom_px: number;
 }
 
-/** Where the slider is without a plot beside it. */
+/** Position of the slider without a neighbouring plot. */
 const ALONE: Span = { top_px: THUMB_PX, bottom_px: THUMB_PX };
 
 const PROPERTIES = {
   shown: given<Shown | null>(null),
   layer: given(0),
-  /** The plot beside it, with the heights that it shows; null without one. */
+  /** The neighbouring plot, with the heights that it shows; null without one. */
   plot: given<PlotPlace | null>(null),
   language: given(languageOf()),
   span: own(ALONE),
@@ -176,13 +176,13 @@ export class CuspLayerSlider extends elementWith(PROPERTIES) {
 
   #go(layer: number): void {
     this.dispatchEvent(new CustomEvent<number>("cusp-layer", { detail: layer }));
-    // A browser that kept the thumb where the pointer is would show a height between two layers.
+    // Resets the thumb, which browsers leave at the pointer, between two layers.
     this.requestUpdate();
   }
 
   #measure(): void {
     const over = this.#over?.getBoundingClientRect();
-    // The next plan brings a new plot to the place of one that is gone.
+    // A plot that has gone is replaced by the next plan.
     if (over?.height === 0) return;
     const own = this.getBoundingClientRect();
     const span = over === undefined ? ALONE : { top_px: over.top - own.top, bottom_px: own.bottom - over.bottom };

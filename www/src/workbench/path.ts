@@ -1,4 +1,4 @@
-/** The path from a model to its print file: a row of steps, and the panel of each. */
+/** The path from a model to its print file: a row of steps, and the panel of each step. */
 import { html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../api/facts.js";
 import { orientationPanel, settingsPanel, takeUp } from "../element/bound-panels.js";
@@ -9,15 +9,15 @@ import { needsModel, STEPS, type HandTool, type Step } from "./places.js";
 import { stepStates, type Mark } from "./step-states.js";
 import { workbenchWords } from "./texts/index.js";
 
-/** What a step asks for in the form of settings. */
+/** Fields of the settings form in each step. */
 const FIELDS = { hollow: "hollow", support: "supports", slice: "slice" } as const satisfies Partial<Record<Step, Fields>>;
 
-/** What a step has a tool in the view for. */
+/** Tool of the view in each step. */
 const TOOLS: Partial<Record<Step, HandTool>> = { turn: "rotate", hollow: "drains", support: "supports" };
 
 /**
- * @param current the step whose panel is on show
- * @param isWide whether there is room for what the steps have come to
+ * @param current the step whose panel is shown
+ * @param isWide true if there is room for the states of the steps
  */
 export function path(facts: Facts, current: Step | null, isWide: boolean, go: (step: Step) => void): TemplateResult {
   const { session, language } = facts;
@@ -50,9 +50,9 @@ function badge(mark: Mark, number: string): string | TemplateResult {
 }
 
 /**
- * The panel of a step, and the ways to the steps before and after.
+ * The panel of a step, with buttons to the previous and next steps.
  *
- * @param taken called when a tool of the view was taken up
+ * @param taken called when a tool of the view was activated
  */
 export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, taken: () => void): TemplateResult {
   const { language } = facts;
@@ -61,7 +61,7 @@ export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, ta
   const byHand = isUnused ? nothing : handButton(facts, step, taken);
   const foot = stepFoot(facts, step, go);
   const isLast = step === STEPS.at(-1);
-  // Turning asks for nothing before it is done by hand.
+  // Turning has no settings besides turning by hand.
   return html`<div class="panel" tabindex="0" role="group" aria-labelledby="step-title">
       <p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>
       ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
@@ -70,11 +70,11 @@ export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, ta
     ${isLast ? nothing : foot}`;
 }
 
-/** Takes up the tool of a step, where there is something to do with it. */
+/** Button that activates the tool of a step, if the tool applies. */
 function handButton({ session: { model, settings, plate }, language }: Facts, step: Step, taken: () => void): TemplateResult | typeof nothing {
   const tool = TOOLS[step];
   if (tool === undefined || model === null || (step === "hollow" && settings.wall.trim() === "")) return nothing;
-  // On a plate of several no point is that of one model.
+  // On a plate of several copies, points cannot be assigned to a single model.
   if (tool !== "rotate" && plate.copies.length > 0) return nothing;
   const take = ({ target }: Event): void => {
     takeUp(target, tool);
@@ -90,7 +90,7 @@ function contentOf(facts: Facts, step: Step): TemplateResult | typeof nothing {
   return session.result === null ? html`<p class="quiet">${language.texts.chart.none}</p>` : findingsPanel(facts);
 }
 
-/** How many points no support reaches. */
+/** Number of points that no support reaches. */
 function missing({ session: { result, settings }, language }: Facts): TemplateResult | typeof nothing {
   const points = settings.supports === "none" ? 0 : (result?.own?.supported?.unreached.length ?? 0);
   return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing(points, language.format)}</p>`;

@@ -1,4 +1,4 @@
-/** How far each step is, in words. */
+/** Progress of each step in words. */
 import { expect, test } from "vitest";
 import type { ModelReport, Verdict } from "../api/wire.js";
 import type { Check } from "../api/index.js";
@@ -19,7 +19,7 @@ interface Given {
   verdict?: Verdict;
 }
 
-/** What a session has of these. */
+/** A session with these fields. */
 function walked(given: Given = {}): Walked {
   const { settings = {}, faults = {}, supports, earlier = false, verdict } = given;
   const result = given.own === null ? null : { report: report({}), own: given.own, options: { ...(supports && { supports }) } };

@@ -8,7 +8,7 @@ import type { Language } from "../texts/index.js";
 import type { Step } from "./places.js";
 import { workbenchWords } from "./texts/index.js";
 
-/** Something was done in a step, there is something to look at, or something cannot be as it is. */
+/** `done`: the step has an effect; `look`: it needs attention; `wrong`: it must change. */
 export type Mark = "done" | "look" | "wrong" | null;
 
 export interface StepState {
@@ -16,12 +16,12 @@ export interface StepState {
   readonly mark: Mark;
 }
 
-/** The part of a session that steps are a function of. */
+/** The part of a session that determines the steps. */
 export type Walked = Pick<Session, "settings" | "faults" | "result" | "shown" | "earlier"> & { readonly checks: Pick<Checks, "check"> };
 
 const VERDICT_MARKS = { ok: "done", review: "look", reject: "wrong" } as const satisfies Record<Verdict, Mark>;
 
-/** Warnings that a void is not as it was asked for. */
+/** Warnings that a void differs from the request. */
 const OF_VOIDS: readonly Warning["code"][] = ["nothing-hollowed", "drain-astray", "undrained"];
 
 export function stepStates(session: Walked, language: Language): Readonly<Record<Step, StepState>> {
@@ -58,7 +58,7 @@ function support({ settings: { supports, format }, result }: Walked, language: L
   const strength = language.texts.settings.strengths[supports];
   if (supports === "none") return { words: strength, mark: null };
   const supported = result?.own?.supported;
-  // Points of another strength are of an earlier plan.
+  // Points of another strength belong to an earlier plan.
   if (supported === undefined || result?.options.supports?.strength !== supports) return { words: strength, mark: "done" };
   const mark = supported.unreached.length > 0 ? "look" : "done";
   return { words: words.supports(strength, supported.points.length, language.format), mark };

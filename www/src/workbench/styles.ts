@@ -1,4 +1,4 @@
-/** The styles of the workbench. It fills its host, which has a definite height; what does not fit scrolls inside its panel. */
+/** Styles of the workbench. It fills its host, which has a definite height; overflow scrolls inside the panels. */
 import { css } from "lit";
 import { lineIcon } from "../element/styles/shared.js";
 

@@ -1,9 +1,9 @@
-/** A row of tabs, as the ARIA pattern has them: the arrow keys choose, and Tab leaves the row. */
+/** A row of tabs by the ARIA pattern: arrow keys select, and Tab leaves the row. */
 import { html, type TemplateResult } from "lit";
 
 const STEPS: Readonly<Record<string, number>> = { ArrowRight: 1, ArrowLeft: -1 };
 
-/** @param panel id of the element with the chosen tab's panel */
+/** @param panel id of the selected tab's panel */
 export function tabs<Name extends string>(
   label: string,
   names: readonly Name[],

@@ -1,4 +1,4 @@
-/** The layout of the workbench: the view in the middle, the step at its start, the result at its end; on a narrow screen, sheets. */
+/** Layout of the workbench: the view in the middle, the step on the left, the result on the right; on a narrow screen, sheets. */
 import { html, nothing, type TemplateResult } from "lit";
 import {
   announcement,
@@ -30,16 +30,16 @@ import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts/index.js";
 import { shown } from "../api/visible.js";
 
-/** What the workbench itself remembers: which panels are open, and where the chart's plot is. */
+/** State of the workbench itself: the open panels, and the position of the chart's plot. */
 export interface Bench {
   isWide: boolean;
-  /** The step beside the view of a wide screen. */
+  /** The step next to the view on a wide screen. */
   step: Step;
   answer: AnswerPanel;
   /** The sheet over the view of a narrow screen; null if none is open. */
   sheet: Sheet | null;
   plot: PlotPlace | null;
-  /** Goes to a step, from one before or after, or from the row of all. */
+  /** Goes to a step, from the foot of a neighbouring one or from the row of all. */
   go(step: Step, from: "foot" | "row"): void;
   answers(name: AnswerPanel): void;
   open(sheet: Sheet | null): void;
@@ -65,13 +65,13 @@ export function template(facts: Facts, bench: Bench): TemplateResult {
   `;
 }
 
-/** The step whose panel is on show; null if there is none. */
+/** The step whose panel is shown; null if there is none. */
 function stepOf({ session }: Facts, { isWide, step, sheet }: Bench): Step | null {
   if (!isWide) return isStep(sheet) ? sheet : null;
   return session.model === null && needsModel(step) ? "slice" : step;
 }
 
-/** The stage before a model is open. */
+/** Content before a model is open. */
 function start({ session, language: { texts }, picked }: Facts, { isWide }: Bench): TemplateResult {
   return html`<div class="start">
     ${session.busy === null
@@ -110,7 +110,7 @@ function view(facts: Facts, { isWide, plot, placed }: Bench): TemplateResult {
       : nothing}`;
 }
 
-/** Over the middle, where nobody misses it: what went wrong, what was stopped, what is under way. */
+/** Prominent overlay: problems, notices, and progress. */
 function overlay(facts: Facts): TemplateResult {
   const { session, language, problem } = facts;
   const { busy } = session;
@@ -168,7 +168,7 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
   </div>`;
 }
 
-/** The result: its figures, its file, what to know about it, and how it was computed. */
+/** The result: its figures, file, notes, and details of the computation. */
 function plan(facts: Facts): TemplateResult {
   const { session, language, saveTowers } = facts;
   const { result } = session;
@@ -182,7 +182,7 @@ function plan(facts: Facts): TemplateResult {
   `;
 }
 
-/** In place of the result: the same rows without figures, so that nothing moves when they come. */
+/** Placeholder of the result: the same rows without figures, so that the layout does not shift. */
 function noPlan(facts: Facts): TemplateResult {
   const { session, language, saveTowers } = facts;
   const { texts } = language;
@@ -196,7 +196,7 @@ function noPlan(facts: Facts): TemplateResult {
   `;
 }
 
-/** The exposure, which the time rests on. */
+/** The exposure on which the time is based. */
 function exposure({ language }: Facts, { report: { resin } }: Result): TemplateResult | typeof nothing {
   const { exposure_s, layer_mm } = resin;
   if (exposure_s === undefined || layer_mm === undefined) return nothing;
@@ -204,13 +204,13 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
   return html`<p class="exposure quiet">${workbenchWords(language).exposure(format.seconds(exposure_s), format.fine(layer_mm))}</p>`;
 }
 
-/** Uniform layers have a thickness, and no quality to choose. */
+/** Uniform layers have a thickness, not a quality. */
 function quality(facts: Facts, result: Result): TemplateResult {
   if (result.report.planner === "uniform") return html`<p class="quiet">${facts.language.texts.settings.uniformHint}</p>`;
   return qualityPanel(facts, result);
 }
 
-/** The bar of a narrow screen, which stays: figures, download, and the panels. */
+/** Fixed bar of a narrow screen: figures, download, and the panels. */
 function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
   const { session, language } = facts;
   const { result, shown } = session;

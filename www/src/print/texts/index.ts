@@ -1,4 +1,4 @@
-/** The texts of the view of print files: a catalogue for each language, fetched with the view. */
+/** Texts of the view of print files, one catalogue per language, fetched with the view. */
 import type { FileFinding, LayerFault, PrintFileError } from "../../../pkg/cusp_reader.js";
 import type { Format } from "../../texts/format.js";
 import type { Language, LanguageCode } from "../../texts/index.js";
@@ -15,7 +15,7 @@ export interface PrintWords {
   another: string;
   reading(name: string): string;
   cancel: string;
-  /** Where nothing is wrong. */
+  /** Shown if the file has no faults. */
   whole: string;
   warnings(count: number): string;
   facts: Readonly<

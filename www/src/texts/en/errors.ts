@@ -1,4 +1,4 @@
-/** Sentences on failures, as the command line says them. */
+/** Sentences about failures, as in the command line. */
 import type { UniformLayers } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { adviceOn, ended, FILE_KINDS, flatKind, STL_KEYWORDS, type ErrorSentences, type QuantityNouns, type StlNouns, type WorkWords } from "../sentences.js";
@@ -39,7 +39,7 @@ const EXPECTED: StlNouns = {
   coordinate: "a coordinate",
 };
 
-/** What to choose in place of layers of several thicknesses. */
+/** Advice on uniform layers in place of adaptive ones. */
 const inPlace = (best: UniformLayers | null | undefined, { count, mm }: Pick<Format, "count" | "mm">): string =>
   best ? `${count(best.layers)} uniform layers of ${mm(best.layer_mm)}, which keep the tolerance` : "the uniform planner";
 

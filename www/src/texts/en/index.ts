@@ -11,8 +11,8 @@ import { warnings } from "./warnings.js";
 export const units = { hours: "h", minutes: "min" };
 
 /**
- * Every text that a user sees or hears, but for those that are fetched with what they are about, in English. The compiler holds the other languages to the same keys, part by part.
- * Numbers are passed as text, already formatted for the language, except where a plural depends on them.
+ * All English texts, except those fetched with their panel. The compiler requires the same keys of the other languages, part by part.
+ * Numbers are passed as text formatted for the language, unless a plural depends on them.
  */
 export const en = (format: Format) => ({
   ...model(),

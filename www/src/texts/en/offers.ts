@@ -1,4 +1,4 @@
-/** What would help, as buttons say it. */
+/** Labels of offers. */
 import type { ModelUnit } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import { LAYERS, UNITS } from "./nouns.js";

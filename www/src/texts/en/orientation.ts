@@ -12,12 +12,12 @@ export const orientation = ({ counted }: Format) => ({
     cost: "Cost",
     costs: { layers: "Layers", time: "Print time" },
     quality: "Quality",
-    /** The largest error, and what is less of it, are words of the metric. */
+    /** Largest error, and its comparison, are words of the metric. */
     qualities: { roughness: "Roughness", overhang: "Overhang", islands: "Islands", cups: "Cups", supports: "Supports", contacts: "Contacts" },
     balance: "What counts more",
     fewer: { layers: "Fewer layers", time: "Quicker" },
     better: { roughness: "Smoother", overhang: "Less overhang", islands: "Fewer islands", cups: "Smaller cups", supports: "Less support", contacts: "Smaller contacts" },
-    /** Before the three limits, whose names these are. */
+    /** Precedes the three limits. */
     most: "Leave out directions with more than",
     limits: { overhang: "Overhang, mm²", islands: "Islands", cups: "Cups, mm²" },
     parts: (cost: string, costPart: string, quality: string, qualityPart: string) =>
@@ -58,7 +58,7 @@ export const orientation = ({ counted }: Format) => ({
     best: "Best orientations",
     now: "Now",
     current: "Current orientation",
-    /** What an orientation has more or less of than the current one. */
+    /** Differences from the current orientation. */
     differs: {
       layers: (count: number, isLess: boolean) => `${counted(count, LAYERS)} ${isLess ? "fewer" : "more"}`,
       time: (time: string, isLess: boolean) => `${time} ${isLess ? "quicker" : "longer"}`,

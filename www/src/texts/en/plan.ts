@@ -1,4 +1,4 @@
-/** A plan and what it gains, its print file, the trade-off curve, the profile and the masks. */
+/** A plan and its savings, its print file, the trade-off curve, the profile and the masks. */
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";
 
@@ -27,7 +27,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     within: "within tolerance",
     over: "over tolerance",
   },
-  /** Notes on the download: what the file is, whether the printer reads it, and what has not been added to the model. */
+  /** Notes on the download: the format of the file, the printer's support for it, and the preparation of the model. */
   file: {
     kinds: {
       png: () => "A zip of layer images.",
@@ -47,7 +47,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     unreadable: (printer: string) => `The ${printer} cannot read it.`,
     oneInFile: "This file has one thickness for all layers: choose uniform ones for it.",
     onePerPrint: (printer: string) => `The ${printer} takes one thickness for all layers: choose uniform ones for it.`,
-    /** What must match in the slicer of a filament printer, or all layers are off. */
+    /** First layer to set in the slicer of a filament printer; any other shifts all layers. */
     match: (thickness: string, setting: string) => `Set the first layer to ${thickness} there (${setting}), or every layer is printed at another height than planned.`,
     asIs: "The model prints as it is: no supports, not hollowed.",
     hollow: "The model prints hollow: no supports.",
@@ -55,7 +55,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
     hollowSupported: "The model prints hollow, with supports.",
     together: (sentences: readonly string[]) => sentences.join(" "),
   },
-  /** Test towers, which tell whether a printer takes several thicknesses. */
+  /** Test towers, which show whether a printer obeys the thickness of each layer. */
   towers: {
     download: "Download test towers",
     writing: "Writing test towers…",
@@ -63,7 +63,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
       `Two small towers to measure with a caliper. If they are ${size(0.5)} and ${size(1.5)}\u00a0mm high, the printer takes a ` +
       `thickness for each layer; if ${size(0.5)} and ${size(1)}\u00a0mm, or ${size(1)} and ${size(2)}\u00a0mm, it takes one for all.`,
   },
-  /** What the plan gains over the best uniform layers within tolerance; `uniform` is their thickness, `figure` their number or time. */
+  /** Gain of the plan over the best uniform layers within tolerance; `uniform` is their thickness, `figure` their number or time. */
   gain: {
     over: (subject: string, error: string, tolerance: string) => `${subject} is ${error}, more than the ${tolerance} allowed.`,
     isUniform: (tolerance: string) => `Uniform layers, within ${tolerance} all the way up. Adaptive ones may need fewer.`,

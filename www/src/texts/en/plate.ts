@@ -1,4 +1,4 @@
-/** The models on the plate: their copies, their places and the plates. */
+/** The models on the plate, their copies and placements, and the plates. */
 
 export const plate = () => ({
   plate: {
@@ -11,7 +11,7 @@ export const plate = () => ({
     title: "Models on the plate",
     remove: (name: string) => `Remove ${name}`,
     spacing: "Spacing (mm)",
-    /** Names the choice of turns about z. */
+    /** Label of the choice of turns about z. */
     turns: "Turns",
     turnless: "None",
     step: (degrees: string) => `Steps of ${degrees}°`,
@@ -22,7 +22,7 @@ export const plate = () => ({
     each: (time: string, resin: string) => `${time}, ${resin} each`,
     whole: (time: string, resin: string) => `All plates: ${time}, ${resin}`,
     all: "Download all plates",
-    /** How many problems are not listed. */
+    /** Number of problems not listed. */
     others: (count: string) => `And ${count} more.`,
     moved: "Copies stand where they were moved.",
   },

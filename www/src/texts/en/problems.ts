@@ -1,4 +1,4 @@
-/** Failures: a heading, what happened, and what to do where no plan keeps the tolerance. */
+/** Failures: a heading, an explanation, and advice if no plan keeps the tolerance. */
 import type { Format } from "../format.js";
 import { errors } from "./errors.js";
 
@@ -40,7 +40,7 @@ export const problems = (format: Format) => ({
     otherMesh: (name: string) => `${name} is of another model`,
     other: () => "That did not work",
   } satisfies Headings,
-  /** What would help if no plan keeps the tolerance. */
+  /** Advice if no plan keeps the tolerance. */
   infeasible: {
     either: "Raise the tolerance, or allow thinner layers if your printer can make them.",
     larger: "Raise the tolerance.",

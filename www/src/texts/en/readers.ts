@@ -1,4 +1,4 @@
-/** Sentences on models that could not be read, as the command line says them. */
+/** Sentences about unreadable models, as in the command line. */
 import type { ThreeMfFeature, XmlFault } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import type { ErrorSentences } from "../sentences.js";

@@ -1,4 +1,4 @@
-/** The settings form, the faults of what is typed there, and the metrics of error. */
+/** The settings form, the faults of its fields, and the error metrics. */
 
 import { UNITS } from "./nouns.js";
 

@@ -1,4 +1,4 @@
-/** Sentences on what users should know although the work went on, as the command line says them. */
+/** Sentences of warnings, as in the command line. */
 import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";

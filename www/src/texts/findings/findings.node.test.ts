@@ -41,7 +41,7 @@ test("no two languages say the same, and no two kinds in one", () => {
 test("in English the page says what the command line says", async () => {
   const source = await readFile(new URL("../../../../src/inspect/finding.rs", import.meta.url), "utf8");
   const words = findingsTexts(languageOf("en"));
-  // The sentences of the core, with their figures left out and lines joined.
+  // The core's sentences, with line continuations joined and figures removed.
   const bare = (text: string): string => text.toLowerCase().replaceAll("\u00a0", " ").replace(/[.;]$/u, "").replaceAll(/\s+/gu, " ");
   const core = [...source.replaceAll(/\\\n\s*/gu, "").matchAll(/"([^"\n]*; [^"\n]*)"/gu)].map(([, text = ""]) => bare(text.replaceAll(/\{[^}]*\}/gu, "#")));
   const figures = { area: "# mm²", volume: "# mm³", resin: "# ml", limit: "#", first: "#", joins: "#", layers: 2 };

@@ -1,4 +1,4 @@
-/** The texts of the findings, one catalogue per language. They are fetched with their panel. */
+/** Texts of the findings, one catalogue per language, fetched with their panel. */
 import type { Code, Finding, Printability, Severity } from "../../api/wire.js";
 import type { Format } from "../format.js";
 import type { Language, LanguageCode } from "../index.js";
@@ -8,43 +8,43 @@ import { findings as es } from "./es.js";
 import { findings as fr } from "./fr.js";
 import { findings as zh } from "./zh.js";
 
-/** The figures of a finding, as the language writes them. */
+/** Formatted figures of a finding. */
 export interface Said {
   readonly area: string;
   readonly volume: string;
-  /** The volume as resin. */
+  /** The volume as an amount of resin. */
   readonly resin: string;
   /** The limit with its unit. */
   readonly limit: string;
-  /** Layers from 1. */
+  /** First layer, counted from 1. */
   readonly first: string;
   readonly joins: string;
-  /** How many layers it has. */
+  /** Number of layers. */
   readonly layers: number;
 }
 
 export interface FindingsTexts {
   checking: string;
-  /** Nothing was found. */
+  /** Shown if there are no findings. */
   none: string;
   verdicts: Readonly<Record<Printability["verdict"], string>>;
   severities: Readonly<Record<Severity, string>>;
   kinds: Readonly<Record<Code, string>>;
-  /** What it is: a sentence for each kind. */
+  /** Explanation of each kind. */
   sentences: Readonly<Record<Code, (said: Said) => string>>;
-  /** What to do about it. */
+  /** Advice on each kind. */
   advice: Readonly<Record<Code, string>>;
   layers: (first: string, last: string) => string;
   layer: (number: string) => string;
-  /** Shows all findings of a kind. */
+  /** Label of the button that shows all findings of a kind. */
   all: (count: string) => string;
-  /** How many findings of a kind are not listed, since they are smaller. */
+  /** Number of smaller findings of a kind that are not listed. */
   smaller: (count: string) => string;
-  /** What choosing a finding does. */
+  /** Explains the effect of choosing a finding. */
   hint: string;
-  /** The switch that colours the model by how thick it is. */
+  /** Label of the switch that colours the model by wall thickness. */
   walls: string;
-  /** What the colours are, and what is marked. */
+  /** Explains the colours and the marked areas. */
   wallsHint: (limit: string) => string;
 }
 
@@ -66,7 +66,7 @@ export function saidOf({ code, area_mm2, volume_mm3, limit, layers: [first, last
   };
 }
 
-/** To four digits. */
+/** Formats a figure with four significant digits. */
 const figure = (value: number, format: Format): string => format.exact(Number(value.toPrecision(4)));
 
 function limitOf(code: Code, limit: number, format: Format): string {

@@ -1,4 +1,4 @@
-/** The texts for painting weights, one catalogue per language. They are fetched with their panel. */
+/** Texts for painting weights, one catalogue per language, fetched with their panel. */
 import type { Language, LanguageCode } from "../index.js";
 import { painting as de } from "./de.js";
 import { painting as en } from "./en.js";

@@ -1,4 +1,4 @@
-/** The texts for placing support points and drain holes, one catalogue per language. They are fetched with their panel. */
+/** Texts for placing support points and drain holes, one catalogue per language, fetched with their panel. */
 import type { Language, LanguageCode } from "../index.js";
 import { placing as de } from "./de.js";
 import { placing as en } from "./en.js";
@@ -6,40 +6,40 @@ import { placing as es } from "./es.js";
 import { placing as fr } from "./fr.js";
 import { placing as zh } from "./zh.js";
 
-/** What is said of points, and of holes. */
+/** Texts about support points or drain holes. */
 export interface KindTexts {
   title: string;
-  /** What to do, in one sentence. */
+  /** Instructions in one sentence. */
   hint: string;
-  /** How many no support gets to, or meet no void. */
+  /** Label of the number that no support reaches, or that meet no void. */
   unreached: string;
-  /** Which of them is selected, and how high it is. */
+  /** Number and height of the selected one. */
   selected: (number: string, all: string, height: string) => string;
-  /** Instead of that, if none is. */
+  /** Replaces `selected` if none is. */
   none: string;
-  /** What a lock does. */
+  /** Explains the lock. */
   lockHint: string;
 }
 
 export interface PlacingTexts {
   points: KindTexts;
   drains: KindTexts;
-  /** How many are placed automatically. */
+  /** Label of the number placed automatically. */
   automatic: string;
-  /** How many are placed by hand, and stay. */
+  /** Label of the number placed by hand, which stay. */
   byHand: string;
   diameter: string;
-  /** Diameter of the holes that are added. */
+  /** Diameter of new holes. */
   newDiameter: string;
   lock: string;
   remove: string;
-  /** Where weights are painted, automatic supports and drain holes keep off the largest ones. */
+  /** Label of the switch by which automatic supports and drain holes avoid large painted weights. */
   spare: string;
-  /** That it is for both, and why it has no effect yet. */
+  /** Explains that it applies to both, and needs painted weights. */
   spareHint: string;
-  /** The button that saves plugs for the holes. */
+  /** Label of the button that saves plugs for the holes. */
   plugs: string;
-  /** What to do with them. */
+  /** Explains the use of plugs. */
   plugsHint: string;
   automatically: string;
   clear: string;

@@ -6,30 +6,30 @@ import type { HandTool, Step } from "../places.js";
 import { words as en } from "./en.js";
 
 export interface WorkbenchWords {
-  /** Names the buttons of the sheets that are no steps. */
+  /** Label of the buttons for sheets other than steps. */
   choices: string;
-  /** Names the row of tabs. */
+  /** Label of the row of tabs. */
   answers: string;
   mask: string;
   result: string;
-  /** Opens the sheet with the result. */
+  /** Label of the button that opens the sheet with the result. */
   more: string;
-  /** Names the slider beside the view. */
+  /** Label of the slider next to the view. */
   layer: string;
-  /** Exposure of a layer of a thickness. */
+  /** Exposure of a layer of this thickness. */
   exposure: (seconds: string, thickness: string) => string;
-  /** Names the row of steps. */
+  /** Label of the row of steps. */
   path: string;
   steps: Readonly<Record<Step, string>>;
-  /** What each step is for. */
+  /** Purpose of each step. */
   hints: Readonly<Record<Step, string>>;
   back: string;
   next: (step: string) => string;
-  /** Take up a tool of the view. */
+  /** Labels of buttons that activate a tool of the view. */
   byHand: Readonly<Record<HandTool, string>>;
-  /** In place of what a slicer of a filament printer does itself. */
+  /** Replaces features that a slicer for filament printers has itself. */
   filament: string;
-  /** How far each step is, in a few words. */
+  /** Progress of each step in a few words. */
   states: {
     asFile: string;
     turned: string;
@@ -38,9 +38,9 @@ export interface WorkbenchWords {
     solid: string;
     walls: (thickness: string) => string;
     supports: (strength: string, points: number, format: Format) => string;
-    /** Of points that no support reaches. */
+    /** Number of points that no support reaches. */
     missing: (points: number, format: Format) => string;
-    /** A field of the step cannot be as it is. */
+    /** A field of the step is invalid. */
     wrong: string;
   };
 }
@@ -52,7 +52,7 @@ const catalogues = new Catalogues<WorkbenchWords>(en, {
   zh: () => import("./zh.js"),
 });
 
-/** The page waits for it before it shows the workbench in a language. */
+/** The page waits for this before it shows the workbench in another language. */
 export function fetchWorkbenchWords(code: LanguageCode): Promise<void> {
   return catalogues.fetch(code);
 }
