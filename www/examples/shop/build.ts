@@ -1,4 +1,4 @@
-/** Builds the shop's page, and the Rust parts that are missing. */
+/** Builds the shop's page, and missing Rust parts. */
 import { spawnSync } from "node:child_process";
 import { existsSync } from "node:fs";
 import { fileURLToPath } from "node:url";
@@ -19,7 +19,7 @@ export function buildCore(): string {
   if (findCusp() === null) cargo("build", "--release", "--bin", "cusp");
   const cusp = findCusp();
   if (cusp === null) throw new Error("there is no program `cusp`: name it in the variable CUSP");
-  // Fail now rather than at the first order.
+  // Fails now rather than at the first order.
   const { status } = spawnSync(cusp, ["verify", "--help"], { stdio: "ignore" });
   if (status !== 0) throw new Error(`${cusp} cannot verify plans: build it anew by \`cargo build --release --bin cusp\``);
   return cusp;

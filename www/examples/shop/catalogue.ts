@@ -1,24 +1,24 @@
-/** What the shop sells, and what it lets a plan decide. The page offers it; the server checks every order against it. */
+/** The shop's catalogue, and its rules for plans. The page offers it; the server checks every order against it. */
 import type { Limits, Prices, Resin } from "cusp-slicer";
 
-/** A resin with every value that determines print time and exposure, so that a plan cannot bring its own. */
+/** A resin with every value that determines print time and exposure, so that a plan cannot set its own. */
 export interface ShopResin extends Required<Resin> {
-  /** For customers: what it is good for. */
+  /** Description for customers: the resin's use. */
   note: string;
-  /** Class of its swatch. */
+  /** CSS class of its swatch. */
   swatch: string;
   ml_cents: number;
 }
 
 export interface ShopPrinter {
-  /** As `cusp printers` lists it. */
+  /** Name as listed by `cusp printers`. */
   name: string;
   title: string;
   note: string;
   hour_cents: number;
 }
 
-/** What all resins share: the shop has one kind of vat and one way to move the plate. */
+/** Values common to all resins: the shop has one kind of vat and one way to move the plate. */
 const SHARED = {
   exposures: [],
   layer_mm: 0.05,
@@ -41,7 +41,7 @@ export const PRINTERS: readonly ShopPrinter[] = [
   { name: "saturn-3-ultra", title: "Large", note: "24 µm pixels, 218 × 122 × 260 mm", hour_cents: 410 },
 ];
 
-/** What an order costs in a resin on a printer: docs/price.md defines the formula. Taxes are included. */
+/** Prices of a resin on a printer, for the formula in docs/price.md. Taxes are included. */
 export function pricesOf(printer: ShopPrinter, resin: ShopResin): Prices {
   return {
     currency: "EUR",
@@ -56,7 +56,7 @@ export function pricesOf(printer: ShopPrinter, resin: ShopResin): Prices {
   };
 }
 
-/** What the shop prints as it is, looks at first, or refuses: docs/printability.md defines it. What is not here has the defaults. */
+/** Limits by which the shop prints a model unchanged, reviews it, or refuses it (docs/printability.md). Omitted ones have the defaults. */
 export const LIMITS: Limits = {
   wall_mm: 0.5,
   cup_mm2: 25,
@@ -65,11 +65,11 @@ export const LIMITS: Limits = {
 
 export const MOST_COPIES = 20;
 
-/** The ranges that a customer may choose from, mm. */
+/** Range that a customer may choose from, mm. */
 export const TOLERANCE_MM = { least: 0.01, most: 0.15 };
 export const HEIGHT_MM = { least: 5, most: 260 };
 
-/** What only the shop decides: how finely a plan is sampled, and so what it costs to check, and how it is made. */
+/** Options decided by the shop alone: the sampling density, which determines the cost of checking a plan, and the planning method. */
 export const FIXED = {
   rays: 2048,
   antialias: 1,
@@ -90,7 +90,7 @@ export const FIXED = {
   gpu_method: "auto",
 } as const;
 
-/** The largest files that the shop takes, in bytes. A plan is JSON, a model an STL of about a million facets. */
+/** Maximum file sizes, in bytes. A plan is JSON, a model an STL of about a million facets. */
 export const MOST_BYTES = { plan: 4e6, model: 50e6, print: 250e6 };
 
 export type PartName = keyof typeof MOST_BYTES;

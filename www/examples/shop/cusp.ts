@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 
 const NAME = process.platform === "win32" ? "cusp.exe" : "cusp";
 
-/** The one that CUSP names; else one built from this repository; else the first on PATH; null if there is none. */
+/** Path of the program: from CUSP, else built from this repository, else the first on PATH; null if there is none. */
 export function findCusp(): string | null {
   const named = process.env["CUSP"];
   if (named !== undefined && named !== "") return named;

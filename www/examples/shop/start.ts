@@ -15,7 +15,7 @@ export async function main([folder]: string[]): Promise<void> {
   console.log(`shop    ${address}\norders  ${orders}\ncusp    ${cusp}`);
 }
 
-/** Opens the shop until the process is asked to end. Returns the address. */
+/** Runs the shop until the process is asked to end. Returns the URL. */
 export async function run(setup: Setup, port: number): Promise<string> {
   const shop = await createShop(setup);
   const address = await shop.listen(port);

@@ -5,7 +5,7 @@ import { binaryStl, exampleTriangles } from "../../src/page/example.js";
 
 const here = (path: string): string => fileURLToPath(new URL(path, import.meta.url));
 
-/** A real shop would put its own file beside its page. */
+/** A real shop would place its own file next to its page. */
 const sampleModel: Plugin = {
   name: "shop:sample-model",
   generateBundle() {
@@ -19,7 +19,7 @@ export default defineConfig({
   // Here the package is built from its source. A real shop runs `npm install cusp-slicer` and needs none of this.
   plugins: [sampleModel, anyLanguage],
   resolve: {
-    // Always production: this page is only ever built, and libraries have another build for development.
+    // Always production: this page is only ever built, and libraries have a separate development build.
     conditions: ["production", "module", "browser", "import", "default"],
     alias: [
       { find: /^cusp-slicer$/, replacement: here("../../src/api/index.ts") },

@@ -1,4 +1,4 @@
-/** Price and verdict of the plan on show, which follow it and the number of copies. */
+/** Price and verdict of the current plan, updated with the plan and the number of copies. */
 import { isAbort, type Check, type Price } from "cusp-slicer";
 import type { CuspSlicer } from "cusp-slicer/element-class";
 import { LIMITS, pricesOf, PRINTERS, RESINS } from "../catalogue.js";
@@ -10,9 +10,9 @@ export class Assessment {
   readonly #changed: () => void;
   #priced: { of: Result; copies: number; price: Price } | null = null;
   #checked: { of: Result; check: Check } | null = null;
-  /** The check that was asked for last, so that a plan is checked once. */
+  /** The last check requested, so that each plan is checked once. */
   #asked: { of: Result; done: Promise<void> } | null = null;
-  /** The plan of which the shop could not find out what it needs. */
+  /** The plan whose price or check failed. */
   #failed: Result | null = null;
 
   constructor(slicer: CuspSlicer, changed: () => void) {
@@ -20,22 +20,22 @@ export class Assessment {
     this.#changed = changed;
   }
 
-  /** What `copies` of a plan cost; null while that is unknown. */
+  /** Price of `copies` of a plan; null until known. */
   price(of: Result, copies: number): Price | null {
     return this.#priced?.of === of && this.#priced.copies === copies ? this.#priced.price : null;
   }
 
-  /** What the shop says of a plan; null while that is unknown. */
+  /** Check of a plan; null until known. */
   check(of: Result): Check | null {
     return this.#checked?.of === of ? this.#checked.check : null;
   }
 
-  /** Returns true if what the shop needs to know of a plan could not be found out. */
+  /** Returns true if the price or check of a plan failed. */
   hasFailed(of: Result): boolean {
     return this.#failed === of;
   }
 
-  /** Fetches what is unknown of the plan on show. Results that nobody waits for any more are dropped. */
+  /** Fetches missing results for the current plan. Outdated results are dropped. */
   async follow(copies: number): Promise<void> {
     const { result: of } = this.#slicer;
     if (of === null) return;
@@ -46,7 +46,7 @@ export class Assessment {
       await this.#asked.done;
       this.#failed = null;
     } catch (error) {
-      // The worker was stopped, such as by a new choice: the next event asks again.
+      // The worker was stopped, as by a new choice: the next event retries.
       if (this.#asked?.of === of) this.#asked = null;
       if (isAbort(error)) return;
       console.error(error);

@@ -1,11 +1,11 @@
-/** A choice of one from several: radio buttons that look like cards. */
+/** Choice of one from several: radio buttons styled as cards. */
 
 interface Shown {
   name: string;
   title: string;
   note: string;
   price: string;
-  /** Class of the coloured dot in front. */
+  /** CSS class of the coloured dot in front. */
   swatch?: string;
 }
 

@@ -1,4 +1,4 @@
-/** How the shop writes numbers. */
+/** Number formats of the shop. */
 
 const MONEY = new Intl.NumberFormat("en-IE", { style: "currency", currency: "EUR" });
 const NUMBER = new Intl.NumberFormat("en-IE");
@@ -7,14 +7,14 @@ const MILLILITRES = new Intl.NumberFormat("en-IE", { maximumFractionDigits: 1, m
 const MINUTE_S = 60;
 const HOUR_MINUTES = 60;
 
-/** Whole cents, as all prices of the shop. */
+/** An amount in whole cents, like all prices of the shop. */
 export const money = (cents: number): string => MONEY.format(cents / 100);
 
 export const number = (value: number): string => NUMBER.format(value);
 
 export const millilitres = (ml: number): string => `${MILLILITRES.format(ml)} ml`;
 
-/** Seconds as `4 h 12 min`, rounded as in the element, so that a print has the same time all over the page. */
+/** Seconds as `4 h 12 min`, rounded as in the element, so that a print has the same time everywhere on the page. */
 export function time(seconds: number): string {
   const minutes = Math.round(seconds / MINUTE_S);
   if (minutes < 1) return "<\u00a01\u00a0min";

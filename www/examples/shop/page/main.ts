@@ -1,4 +1,4 @@
-/** The shop's page: the element, the shop's own choices, a price that follows both, and a button that orders. */
+/** The shop's page: the element, the shop's own choices, a price that follows both, and an order button. */
 import "cusp-slicer/element";
 import { isAbort, type Check, type Price } from "cusp-slicer";
 import type { CuspSlicer } from "cusp-slicer/element-class";
@@ -23,13 +23,13 @@ const cancel = find<HTMLButtonElement>("#cancel");
 const standing = find("#standing");
 const problem = find("#problem");
 
-/** What a customer is told of an order. */
+/** State of an order in words for the customer. */
 const STATES: Readonly<Record<Placed["state"], string>> = {
   accepted: "taken",
   review: "waiting for a person to look at it",
 };
 
-/** What a customer would buy by pressing the button now. */
+/** The order that pressing the button would place. */
 interface Offer {
   result: Result;
   copies: number;
@@ -39,13 +39,13 @@ interface Offer {
 
 /** The order being placed; null if there is none. */
 let ordering: AbortController | null = null;
-/** The last order sent, until an answer says that it was taken. */
+/** The last order sent, until an answer confirms it. */
 let unanswered: { what: string; key: string } | null = null;
 const placed: Placed[] = [];
 
 const assessment = new Assessment(slicer, draw);
 
-/** Null without a plan, a number of copies, or what the shop says of them. */
+/** The current offer; null without a plan, a valid number of copies, a price or a check. */
 function offer(): Offer | null {
   const { result } = slicer;
   if (result === null || !copies.checkValidity()) return null;
@@ -54,10 +54,10 @@ function offer(): Offer | null {
   return price === null || check === null ? null : { result, copies: count, price, check };
 }
 
-/** Shows what is known, and asks for the rest. */
+/** Shows known results, and requests the rest. */
 function follow(): void {
   draw();
-  // A call made now would wait for the next plan, and be about that.
+  // A call made now would wait for the next plan, and apply to that.
   if (copies.checkValidity() && slicer.state !== "busy") void assessment.follow(copies.valueAsNumber);
 }
 
@@ -98,7 +98,7 @@ async function order(): Promise<void> {
   say("Making the print file…");
   draw();
   try {
-    // The plan on show may not include the latest choice yet.
+    // The current plan may not include the latest choice yet.
     await slicer.plan();
     await assessment.follow(copies.valueAsNumber);
     const now = offer();
@@ -125,7 +125,7 @@ async function order(): Promise<void> {
   }
 }
 
-/** The key of an order: stays the same for the same order until an answer says that it was taken. */
+/** Key of an order: stays the same for the same order until an answer confirms it. */
 function keyOf({ result, copies, price }: Offer): string {
   const { models, options } = result.report;
   const which = models.map(({ file, weights_crc32 }) => [file, weights_crc32]);

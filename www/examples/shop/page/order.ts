@@ -19,7 +19,7 @@ export interface Ordered {
   parts: Readonly<Record<PartName, Blob>>;
 }
 
-/** Why an order was not taken. */
+/** Error with the reason for which an order was not taken. */
 export class OrderError extends Error {
   readonly code: string;
 
@@ -44,7 +44,7 @@ export async function placeOrder({ key, copies, price_cents, model_name, parts }
     throw new OrderError(answer.code ?? "failed", answer.message ?? `The shop could not take the order (HTTP ${response.status}).`);
   } catch (error) {
     if (signal.aborted || error instanceof OrderError) throw error;
-    // The shop may or may not have taken it; sent again it is the same order.
+    // The shop may or may not have taken the order; sent again, it is the same order.
     throw new OrderError("unreachable", "The shop does not answer. Please try again: this will be one order and not two.");
   }
 }

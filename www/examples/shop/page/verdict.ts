@@ -1,10 +1,10 @@
-/** What the shop says of a model before it is ordered. */
+/** Verdict on a model before it is ordered. */
 import type { Check, Code, ModelPrintability } from "cusp-slicer";
 import { number } from "./format.js";
 
 type Severity = "review" | "reject";
 
-/** What a kind of finding means to a customer. */
+/** Explanation of each kind of finding for customers. */
 const SENTENCES: Readonly<Record<Code, string>> = {
   island: "Parts begin in the air and need supports.",
   "loose-body": "A part touches nothing, and would fall off.",
@@ -32,7 +32,7 @@ const WORDS: Readonly<Record<Check["verdict"], string>> = {
 
 const FAILED = "This could not be checked here. Please change a choice, or load this page anew.";
 
-/** One sentence for each kind of finding, those that are refused first. */
+/** One sentence for each kind of finding, with refused kinds first. */
 export function reasons({ counts, findings }: Pick<ModelPrintability, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
   const severityOf = (code: Code): Severity => (findings.some((it) => it.code === code && it.severity === "reject") ? "reject" : "review");
   const said = counts.map(({ code, found }) => ({
@@ -43,13 +43,13 @@ export function reasons({ counts, findings }: Pick<ModelPrintability, "counts" |
   return said.toSorted((a, b) => Number(b.severity === "reject") - Number(a.severity === "reject"));
 }
 
-/** Fills the section; null while the check is under way, or if it has failed. */
+/** Fills the section; `check` is null while it is running, or if it has failed. */
 export function fillVerdict(section: HTMLElement, check: Check | null, hasFailed: boolean): void {
   const [words, list] = [section.querySelector("p"), section.querySelector("ul")];
   if (words === null || list === null) throw new Error("the verdict has no place");
   const unknown = hasFailed ? FAILED : "Checking whether it can be printed…";
   const text = check === null ? unknown : WORDS[check.verdict];
-  // Written only when it changes, so that it is announced once.
+  // Written only on changes, so that it is announced once.
   if (words.textContent !== text) words.textContent = text;
   section.dataset["verdict"] = check?.verdict ?? "";
   const items = check === null ? [] : check.models.flatMap(reasons).map(({ code, severity, text }) => item(code, severity, text));

@@ -1,10 +1,10 @@
-/** Tells clients apart, so that none takes the places of all. */
+/** Identifies clients, so that none can take all places. */
 import type { IncomingMessage } from "node:http";
 import { isIPv6 } from "node:net";
 
 /**
- * The address of a client as the web server in front appends it to X-Forwarded-For: what stands before that is the client's own
- * claim. Of IPv6 it is the network, /64, in which a client has any address.
+ * Address of a client, as appended to X-Forwarded-For by the web server in front; earlier entries are the client's own claim. For IPv6 it
+ * is the /64 network, within which a client can use any address.
  */
 export function clientOf({ headers, socket }: Pick<IncomingMessage, "headers" | "socket">): string {
   const forwarded = String(headers["x-forwarded-for"] ?? "").split(",").at(-1)?.trim();

@@ -1,4 +1,4 @@
-/** The built page: all files are read once, so that no address can reach any other. */
+/** The built page: all files are read once, so that no URL can reach any other. */
 import { readdir, readFile } from "node:fs/promises";
 import { extname, join, relative, sep } from "node:path";
 
@@ -18,7 +18,7 @@ const TYPES: Readonly<Record<string, string>> = {
   ".stl": "model/stl",
 };
 
-/** By address, such as `/assets/index.js`; that of `index.html` is `/`. */
+/** Files by URL path, such as `/assets/index.js`; that of `index.html` is `/`. */
 export async function readPages(folder: string): Promise<ReadonlyMap<string, PageFile>> {
   const pages = new Map<string, PageFile>();
   for (const entry of await readdir(folder, { recursive: true, withFileTypes: true })) {

@@ -1,10 +1,10 @@
-/** Places for orders under way: some in all, and fewer for one client. */
+/** Places for orders in progress: a total, and fewer per client. */
 import { Refusal } from "./refusal.js";
 
 export class Places {
   readonly #all: number;
   readonly #perClient: number;
-  /** Who holds a place, once for each. */
+  /** Clients that hold a place, once per place. */
   readonly #holders: string[] = [];
 
   constructor(all: number, perClient: number) {
@@ -12,7 +12,7 @@ export class Places {
     this.#perClient = perClient;
   }
 
-  /** Takes a place and returns a function that gives it back; refuses if none is free. */
+  /** Takes a place and returns a function that frees it; refuses if none is free. */
   take(client: string): () => void {
     if (this.#holders.filter((holder) => holder === client).length >= this.#perClient) {
       throw new Refusal("too-many-orders", "Several of your orders are under way. Please try again when one of them is done.");

@@ -1,9 +1,9 @@
-/** Checks, before any costly work, whether a plan's options are among those that the shop offers. */
+/** Checks, before any costly work, that a plan's options are offered by the shop. */
 import { isDeepStrictEqual } from "node:util";
 import { FIXED, HEIGHT_MM, PRINTERS, RESINS, TOLERANCE_MM, type ShopPrinter, type ShopResin } from "../catalogue.js";
 import { Refusal } from "./refusal.js";
 
-/** What a plan was made for. */
+/** The options of a plan. */
 export interface Wanted {
   printer: ShopPrinter;
   resin: ShopResin;
@@ -11,7 +11,7 @@ export interface Wanted {
 
 type Json = Readonly<Record<string, unknown>>;
 
-/** Options that a customer decides, and the values that the shop takes. An option in neither list must be absent. */
+/** Options that a customer decides, with the values that the shop accepts. An option in neither list must be absent. */
 const FREE: Readonly<Record<string, (value: unknown) => boolean>> = {
   printer: (value) => PRINTERS.some(({ name }) => name === value),
   resin: (value) => RESINS.some((resin) => isResin(value, resin)),
@@ -20,7 +20,7 @@ const FREE: Readonly<Record<string, (value: unknown) => boolean>> = {
   rotation: (value) => value === null || (Array.isArray(value) && value.length === 4 && value.every(Number.isFinite)),
 };
 
-/** Reads the report of a plan. `cusp verify` checks later whether it is true. */
+/** Reads the report of a plan. `cusp verify` later checks its truth. */
 export function wantedBy(text: string): Wanted {
   const options = optionsOf(text);
   for (const [name, value] of Object.entries({ ...FIXED, printer: null, resin: null, ...options })) {

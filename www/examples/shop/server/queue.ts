@@ -1,4 +1,4 @@
-/** Works on one order at a time, in the order of arrival. */
+/** Runs one task at a time, in order of arrival. */
 export class Queue {
   #last: Promise<unknown> = Promise.resolve();
 

@@ -1,6 +1,6 @@
-/** Why an order is not taken: what the page shows beside its button. */
+/** Refusal of an order, with the sentence that the page shows at its button. */
 
-/** Every code that an answer can have, with its HTTP status. */
+/** Every error code of an answer, with its HTTP status. */
 export const STATUS = {
   "bad-address": 400,
   "no-such-page": 404,

@@ -1,4 +1,4 @@
-/** What the server takes and refuses, without a browser and without the native program. */
+/** Orders that the server takes or refuses, without a browser or the native program. */
 import { randomUUID } from "node:crypto";
 import { once } from "node:events";
 import { mkdir, open as openFile, readdir, readFile, readlink, rm, writeFile, type FileHandle } from "node:fs/promises";
@@ -14,7 +14,7 @@ import { time } from "../page/format.js";
 import { main as review } from "../review.js";
 import { clientOf } from "./client.js";
 
-/** Stands in for the built page. */
+/** Replaces the built page. */
 async function onePage(root: string): Promise<string> {
   const folder = join(root, "page");
   await mkdir(folder);
@@ -29,7 +29,7 @@ const VERDICT = {
   ...{ layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true },
   warnings: WARNINGS,
 };
-/** What the stand-in says: it prices what it was asked to, by the prices that lie in the folder, in a formula of its own. */
+/** Answer of the stand-in. It computes a price from its arguments and the prices file in the folder, by a formula of its own. */
 const answering = (verdict: string): string => `{
   const read = (flag) => JSON.parse(require("node:fs").readFileSync(process.argv[process.argv.indexOf(flag) + 1], "utf8"));
   const prices = read("--prices");
@@ -76,7 +76,7 @@ function post({ address }: OpenShop, { options, print, fields, key = randomUUID(
 
 const from = (client: string): NonNullable<Sent["headers"]> => ({ "x-forwarded-for": client });
 
-/** Begins an upload and does not go on, until the server ends it. Returns the status of its answer; null if there is none. */
+/** Starts an upload and stalls until the server ends it. Returns the status of the answer; null if there is none. */
 function slowly({ address }: OpenShop, client: string): Promise<number | null> {
   const headers = { "content-type": "multipart/form-data; boundary=x", "content-length": 1000, "idempotency-key": randomUUID(), ...from(client) };
   const request = connect(`${address}orders`, { method: "POST", headers });
@@ -174,7 +174,7 @@ test("a verification that takes too long is ended", async () => {
 test("one verification runs at a time, a few wait, fewer of one client, and more are asked to come back", async () => {
   const scratch = await newFolder("scratch");
   const log = join(scratch, "turns.log");
-  // Keeps its turn until the test opens the gate.
+  // Blocks until the test opens the gate.
   const gate = join(scratch, "gate");
   const script = `const fs = require("node:fs");
 fs.appendFileSync(${JSON.stringify(log)}, "in ");
@@ -318,7 +318,7 @@ test("a program that ends without an answer is not the order's fault, and does n
     expect(await post(open, { key }), ending).toMatchObject({ status: 201 });
     await expectNoLeftovers(open);
   }
-  // The operator is told of each.
+  // The operator is told of each failure.
   expect(complaints).toHaveBeenCalledTimes(4);
   complaints.mockRestore();
 });
@@ -347,7 +347,7 @@ test("requests whose upload nobody needs leave nothing in the server's memory", 
   const warnings: Error[] = [];
   const note = (warning: Error): void => void warnings.push(warning);
   process.on("warning", note);
-  // More than node takes for a leak of listeners. The answer is known before the upload is complete.
+  // More than the number at which node warns of a leak of listeners. The answer is known before the upload is complete.
   for (let i = 0; i < 15; i++) await post(open, { key, print: new Blob([new Uint8Array(1e6)]) });
   process.off("warning", note);
   expect(warnings).toEqual([]);

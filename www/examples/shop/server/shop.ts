@@ -1,4 +1,4 @@
-/** The shop's server: its page, and one address to which orders are sent. */
+/** The shop's server: its page, and one URL for orders. */
 import { readFile } from "node:fs/promises";
 import { createServer, type IncomingMessage, type Server, type ServerResponse } from "node:http";
 import type { Socket } from "node:net";
@@ -14,7 +14,7 @@ import { Store, type Order } from "./store.js";
 import { FILES, receive, type Form } from "./upload.js";
 import { verify, type Verifier } from "./verify.js";
 
-/** What the element needs according to docs/embed.md, then what this page's own style sheet and forms need. */
+/** Sources required by the element according to docs/embed.md, then by this page's own style sheet and forms. */
 const POLICY = [
   "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'",
   "style-src 'self'; img-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors 'none'",
@@ -28,31 +28,31 @@ const SECURITY = {
   "x-content-type-options": "nosniff",
 };
 
-/** All other machines connect through a web server that speaks TLS. */
+/** Other machines connect through a web server with TLS. */
 const HOST = "127.0.0.1";
 
 const CLOSING = new Refusal("closing", "The shop closes just now. Please try again in a minute.");
 
 export interface Setup extends Partial<Limits> {
-  /** Where orders are kept. */
+  /** Folder of the orders. */
   folder: string;
   /** The built page. */
   pages: string;
-  /** The native program that verifies. */
+  /** The native program for verification. */
   cusp: string;
 }
 
 export interface Limits {
-  /** The largest files that the shop takes, in bytes. */
+  /** Maximum file sizes, in bytes. */
   most_bytes: Readonly<Record<PartName, number>>;
-  /** Uploaded orders that may be under way at once; one of them is verified, the others wait. */
+  /** Maximum number of uploaded orders in progress; one of them is verified, the others wait. */
   places: number;
   places_per_client: number;
-  /** Uploads that a client may have under way at once, until they are answered. */
+  /** Maximum number of uploads in progress per client, until they are answered. */
   uploads_per_client: number;
-  /** How long a verification may take, ms. */
+  /** Time limit of a verification, ms. */
   verify_ms: number;
-  /** How long an upload may take, ms. */
+  /** Time limit of an upload, ms. */
   upload_ms: number;
 }
 
@@ -66,9 +66,13 @@ const LIMITS: Limits = {
 };
 
 export interface Shop {
-  /** @param port 0 for any that is free. Returns the address. */
+  /**
+   * Starts to listen and returns the URL.
+   *
+   * @param port 0 for any free port
+   */
   listen(port: number): Promise<string>;
-  /** Refuses the orders under way and removes their files. */
+  /** Refuses orders in progress and removes their files. */
   close(): Promise<void>;
 }
 
@@ -105,8 +109,8 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     });
 
   /**
-   * Waits until the client can read an answer: a browser reads none before its upload is complete, so the rest is received
-   * and discarded, up to twice what an honest customer could have sent. Returns whether the client is still connected.
+   * Waits until the client can read an answer: a browser reads none before its upload is complete, so the rest is received and discarded,
+   * up to twice the maximum of an honest order. Returns true if the client is still connected.
    */
   const isHeard = async (request: IncomingMessage, response: ServerResponse): Promise<boolean> => {
     const most = 2 * Object.values(limits.most_bytes).reduce((sum, bytes) => sum + bytes, 0);
@@ -131,14 +135,14 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
   };
 
   const refuse = async (error: unknown, request: IncomingMessage, response: ServerResponse): Promise<void> => {
-    // To receive what is over the limit would be no limit.
+    // Receiving what exceeds the limit would defeat it.
     if (error instanceof Refusal && error.code === "too-many-orders") response.setHeader("connection", "close");
     else if (!(await isHeard(request, response))) return;
     const { code, message } = closing.signal.aborted ? CLOSING : asRefusal(error);
     sendJson(response, STATUS[code], { code, message });
   };
 
-  // Node looks for late uploads at intervals.
+  // Node checks for late uploads at intervals.
   const late = { requestTimeout: limits.upload_ms, connectionsCheckingInterval: limits.upload_ms / 100 };
   const server = createServer(late, (request, response) => {
     answer(request, response).catch((error: unknown) => {
@@ -147,7 +151,7 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
     });
   });
 
-  // Browsers open connections in advance, which Node takes for busy ones.
+  // Browsers open connections in advance, which Node counts as busy.
   const unused = new Set<Socket>();
   server.on("connection", (socket) => {
     unused.add(socket);
@@ -167,7 +171,7 @@ export async function createShop({ folder, pages: built, cusp, ...given }: Setup
 
 const UUID = /^[0-9a-f]{8}(-[0-9a-f]{4}){3}-[0-9a-f]{12}$/i;
 
-/** The key that an order comes with: if it is sent again, it means the same order. */
+/** Key of an order; sent again, it means the same order. */
 function keyOf({ headers }: IncomingMessage): string {
   const key = headers["idempotency-key"];
   if (typeof key === "string" && UUID.test(key)) return key.toLowerCase();
@@ -202,13 +206,13 @@ function sendJson(response: ServerResponse, status: number, value: unknown): voi
   response.end(JSON.stringify(value));
 }
 
-/** Discards the rest of a request; returns whether that was all of it. */
+/** Discards the rest of a request; returns true if the request was complete. */
 function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal): Promise<boolean> {
   if (request.complete || request.destroyed || signal.aborted) return Promise.resolve(request.complete);
   return new Promise((resolve) => {
     let bytes = 0;
     const done = (): void => {
-      // The signal lives as long as the server.
+      // The signal lives as long as the server, so remove the listener.
       signal.removeEventListener("abort", done);
       resolve(request.complete);
     };
@@ -226,7 +230,7 @@ function drain(request: IncomingMessage, most_bytes: number, signal: AbortSignal
 
 function asRefusal(error: unknown): Refusal {
   if (error instanceof Refusal) return error;
-  // For the operator of the shop; a customer sees no internals.
+  // For the shop's operator; customers see no internals.
   console.error(error);
   return new Refusal("failed", "Something went wrong on our side. Your order was not taken.");
 }

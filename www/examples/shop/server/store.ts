@@ -5,27 +5,27 @@ import { join, resolve } from "node:path";
 import type { Price } from "cusp-slicer";
 import type { Verified } from "./verify.js";
 
-/** To be printed, or to be looked at by a person first. */
+/** To be printed, or to be reviewed by a person first. */
 export type State = "accepted" | "review";
 
-/** The folder of the orders in a state. */
+/** Folder of the orders in each state. */
 export const FOLDERS: Readonly<Record<State, string>> = { review: "review", accepted: "orders" };
 
-/** The content of an order's `order.json`, which lies beside its files, and its state, which is where they lie. */
+/** Content of an order's `order.json`, stored with its files, and its state, given by the folder. */
 export interface Order {
   id: string;
   state: State;
   /** ISO 8601. */
   placed_at: string;
-  /** The customer's name of the model's file, fit to be shown; empty if there was none. */
+  /** The customer's name of the model file, safe to show; empty if there was none. */
   model_name: string;
   printer: string;
   resin: string;
   copies: number;
-  /** The lines that make up the price. */
+  /** Lines of the price. */
   lines: Price["lines"];
   price_cents: number;
-  /** What `cusp verify` found, with the verdict and its reasons. */
+  /** Result of `cusp verify`, with the verdict and its reasons. */
   verified: Verified;
 }
 
@@ -35,7 +35,7 @@ export class Store {
 
   private constructor(folder: string) {
     this.#root = folder;
-    // On one file system, so that an order is moved and not copied.
+    // On the same file system, so that an order is moved, not copied.
     this.#incoming = join(folder, "incoming");
   }
 
@@ -48,7 +48,7 @@ export class Store {
     return store;
   }
 
-  /** Gives `work` an empty folder, which is removed afterwards unless it was kept. */
+  /** Runs `work` with an empty folder, which is removed afterwards unless it was kept. */
   async withFolder<T>(work: (folder: string) => Promise<T>): Promise<T> {
     const folder = await mkdtemp(join(this.#incoming, "order-"));
     try {
@@ -58,9 +58,9 @@ export class Store {
     }
   }
 
-  /** The order that was taken for a key; null if none was. */
+  /** The order taken for a key; null if there is none. */
   async find(key: string): Promise<Order | null> {
-    // In this order: one that is accepted between two looks is seen by the second.
+    // In this order, so that an order accepted between the two looks is found by the second.
     for (const state of ["review", "accepted"] as const) {
       try {
         const kept = await readFile(join(this.#root, FOLDERS[state], idOf(key), "order.json"), "utf8");
@@ -76,10 +76,10 @@ export class Store {
   async keep(folder: string, key: string, { state, ...order }: Omit<Order, "id" | "placed_at">): Promise<Order> {
     const placed = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
-    // On the disk before it is an order, and an order before the customer is told: no power failure takes it back.
+    // Files reach the disk before they are an order, and the order before the customer is told, so that no power failure loses it.
     for (const name of await readdir(folder)) await sync(join(folder, name), "r+");
     await sync(folder);
-    // This fails if there already is an order, since its folder is not empty.
+    // Fails if there already is an order, since its folder is not empty.
     const kept = join(this.#root, FOLDERS[state]);
     await rename(folder, join(kept, placed.id));
     await sync(kept);
@@ -87,9 +87,9 @@ export class Store {
   }
 }
 
-/** Waits until the disk has the content of a file, or the names in a folder. */
+/** Flushes the content of a file, or the entries of a folder, to disk. */
 async function sync(path: string, flags = "r"): Promise<void> {
-  // Windows keeps names by itself, and opens no folders.
+  // Windows flushes entries by itself, and opens no folders.
   if (flags === "r" && process.platform === "win32") return;
   const file = await open(path, flags);
   try {
@@ -99,10 +99,7 @@ async function sync(path: string, flags = "r"): Promise<void> {
   }
 }
 
-/**
- * The number of a key's order, so that the folders show which keys are used. Numbers are public and keys secret; a hash
- * does not reveal its key.
- */
+/** Public number of an order, by which the folders show used keys. Keys are secret; the hash does not reveal them. */
 function idOf(key: string): string {
   return createHash("sha256").update(key).digest("hex").slice(0, 32);
 }

@@ -8,23 +8,23 @@ import { Busboy, type BusboyFileStream, type BusboyHeaders } from "@fastify/busb
 import { MOST_COPIES, type PartName } from "../catalogue.js";
 import { Refusal } from "./refusal.js";
 
-/** The names of the files in any order's folder: all printers of the shop take the same format. */
+/** File names in an order's folder; all printers of the shop take the same format. */
 export const FILES: Readonly<Record<PartName, string>> = { plan: "plan.json", model: "model.stl", print: "print.goo" };
 
 const PARTS = Object.keys(FILES) as PartName[];
 
 export interface Form {
   copies: number;
-  /** The price that the customer saw and agreed to. */
+  /** The price that the customer agreed to. */
   price_cents: number;
-  /** What the customer calls the model's file, fit to be shown. */
+  /** The customer's name of the model file, safe to show. */
   model_name: string;
 }
 
-/** Room for the two numbers and the boundaries between the parts. */
+/** Allowance for the two numbers and the boundaries between the parts. */
 const FRAME_BYTES = 10_000;
 
-/** @param most the largest files that the shop takes, in bytes */
+/** @param most maximum file sizes, in bytes */
 export async function receive(
   request: IncomingMessage,
   folder: string,
@@ -40,7 +40,7 @@ export async function receive(
   const form = parser(request, Math.max(...PARTS.map((name) => most[name])));
   form.on("field", (name, value) => void fields.set(name, value));
   try {
-    // Not a pipeline: it would close the connection at the first fault, and the client would not learn of it.
+    // Not a pipeline, which would close the connection at the first fault without an answer to the client.
     await new Promise<void>((resolve, reject) => {
       const tooMany = (): void => reject(new Refusal("bad-order", "There is more in the order than belongs there."));
       form.on("file", (name, stream, filename) => {
@@ -111,7 +111,9 @@ function wholeNumber(text: string | undefined, least: number, most: number, name
 
 const MOST_NAME_CHARACTERS = 100;
 
-/** The name of a file for people, who may see it in a terminal: without characters that act, turn a line around or cannot be seen. */
+/**
+ * A file name safe to show, also in a terminal: without characters that are control codes, change the direction of text or are invisible.
+ */
 function shownName(name = ""): string {
   return name.slice(0, MOST_NAME_CHARACTERS).replaceAll(/[\p{C}\p{Zl}\p{Zp}]/gu, "").trim();
 }

@@ -1,4 +1,4 @@
-/** Has the native `cusp` verify that model and options yield the plan, and the plan the print file. */
+/** Runs the native `cusp` to verify that model and options yield the plan, and the plan the print file. */
 import { execFile } from "node:child_process";
 import { writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -15,20 +15,20 @@ export interface Verified {
   print_time_s: number;
   resin_ml: number;
   print_is_same: boolean;
-  /** What the operator of the printer should know, such as parts that hang in the air. */
+  /** Warnings for the operator of the printer, such as parts that hang in the air. */
   warnings: readonly Warning[];
   printability: PlatePrintability;
   price: Price;
 }
 
 export interface Verifier {
-  /** The program. */
+  /** Path of the program. */
   cusp: string;
-  /** How long it may take, ms. */
+  /** Time limit, ms. */
   limit_ms: number;
 }
 
-/** Room for what it prints: up to a hundred findings of each kind, and the area of every layer. */
+/** Maximum size of the output: up to a hundred findings of each kind, and the area of every layer. */
 const MOST_ANSWER_BYTES = 16e6;
 
 /** JSON of `cusp verify --json` for a valid plan. */
@@ -37,32 +37,32 @@ export interface Answer {
   price: Price;
 }
 
-/** What `cusp verify --json` prints if it fails. */
+/** JSON of `cusp verify --json` on a failure. */
 interface Failed {
   error: { code: string; message: string; detail?: unknown; file?: string };
 }
 
-/** What it is to be refused for, by the file that a failure is about. The program runs in the folder, so files have no path. */
+/** Refusal by the file named in a failure. The program runs in the folder, so file names have no path. */
 const BLAME: Readonly<Record<string, readonly [code: RefusalCode, subject: string]>> = {
   [FILES.plan]: ["plan-refused", "The plan was refused"],
   [FILES.model]: ["model-refused", "The model was refused"],
   [FILES.print]: ["print-refused", "The print file was refused"],
 };
 
-/** Bounds of one verification. A plan may ask for more than any order is worth. */
+/** Resource limits of one verification, since a plan may cost more than any order is worth. */
 const BOUNDS = ["--max-memory", "2GB", "--max-cpu-time", "120"];
 
-/** What the shop accepts, and what it asks. */
+/** The shop's limits and prices for an order. */
 export interface Terms {
   limits: Limits;
   prices: Prices;
   copies: number;
 }
 
-/** The files of the terms, beside those of the order: with them, `cusp verify` can be called again. */
+/** Files of the terms, stored with the order so that `cusp verify` can be repeated. */
 const TERMS = { limits: "limits.json", prices: "prices.json" };
 
-/** @param folder where the three files are */
+/** @param folder contains the three files */
 export async function verify(folder: string, terms: Terms, { cusp, limit_ms }: Verifier, signal: AbortSignal): Promise<Verified> {
   for (const name of ["limits", "prices"] as const) await writeFile(join(folder, TERMS[name]), `${JSON.stringify(terms[name], null, 2)}\n`);
   const call = ["verify", FILES.plan, FILES.model, "--print", FILES.print, "--json"];
@@ -81,14 +81,14 @@ export async function verify(folder: string, terms: Terms, { cusp, limit_ms }: V
   return verified;
 }
 
-/** An order is of a single copy, on one plate. */
+/** The single plate of an order. */
 export function verifiedOf({ plates, price }: Answer): Verified {
   const [plate, ...others] = plates;
   if (plate === undefined || others.length > 0) throw new Refusal("plan-refused", "The plan is not of one plate.");
   return { ...plate, price };
 }
 
-/** A correct plan of a model that the shop does not print. */
+/** Refusal of a valid plan for a model that the shop does not print. */
 function rejected({ printability }: Verified): Refusal {
   const findings = printability.models.flatMap((model) => model.findings);
   const codes = new Set(findings.filter(({ severity }) => severity === "reject").map(({ code }) => code));
@@ -96,8 +96,7 @@ function rejected({ printability }: Verified): Refusal {
 }
 
 /**
- * What the program answers to an order that it does not accept: why it failed, or what will fail when it is printed. Null if it
- * did not get as far as an answer, for which the order is not to blame.
+ * Refusal in the program's output: a failure, or a rejection by the findings. Null without an answer, for which the order is not to blame.
  */
 function answered(output: string): Refusal | null {
   const answer = parsed(output);
