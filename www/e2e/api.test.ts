@@ -1,4 +1,4 @@
-/** The headless slicer and its plate in a real browser, from the package as it is published. */
+/** The headless slicer and its plate in a real browser, from the published package. */
 import { unzipSync } from "fflate";
 import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, beforeEach, expect, test } from "vitest";
@@ -65,7 +65,7 @@ test("a print file is the same however many workers encode its layers", async ()
   expect([shared, otherShared]).toEqual([one, other]);
   expect(one).not.toBe(other);
   for (const { fractions } of files) expect(fractions).toEqual([...fractions].sort((a, b) => a - b));
-  // One for each slicer, and two that helped the second, or come too late for it.
+  // One per slicer, and two helpers of the second, which may arrive too late to help.
   await expect.poll(() => page.workers().length).toBe(4);
 });
 
@@ -209,7 +209,7 @@ test("a call whose worker ends without a word rejects, and the next one has anot
     await slicer.load("ball.stl");
     Object.assign(window, { slicer });
   });
-  // It takes the next call, and ends in place of an answer.
+  // The worker accepts the next call, and dies instead of answering.
   await page.workers()[0]?.evaluate(() => Object.assign(self, { postMessage: () => close() }));
   const [code, layers] = await page.evaluate(async () => {
     const { slicer } = window as unknown as { slicer: Api.Slicer };
@@ -304,7 +304,7 @@ test("two models in several copies become one print file, and the masks show eac
   expect(report.models.map(({ copies }) => copies)).toEqual([3, 1]);
   expect(report.placements.map(({ model }) => model).toSorted((a, b) => a - b)).toEqual([0, 0, 0, 1]);
   const [block, ball] = report.models;
-  // A block of 8 × 8 × 6 mm, a ball of 10 mm, and what their copies share of the time.
+  // A block of 8 × 8 × 6 mm, a ball of 10 mm, and their copies' shares of the time.
   expect(block?.resin_ml).toBeCloseTo(0.384, 6);
   expect(3 * (block?.print_time_s ?? 0) + (ball?.print_time_s ?? 0)).toBeCloseTo(found.print_time_s, 6);
   expect(3 * (block?.resin_ml ?? 0) + (ball?.resin_ml ?? 0)).toBeCloseTo(found.resin_ml, 9);
@@ -325,7 +325,7 @@ test("cancelling a plan keeps the models; copies that overlap are told", async (
     const options = { printer: "mars-4-ultra" };
     const { id } = await slicer.add("block.stl", { copies: 40 });
     const arranged = await slicer.arrange(options);
-    // The second copy a millimetre beside the first.
+    // The second copy one millimetre from the first.
     const overlapping = arranged.slice(0, 2).map((copy, i) => ({ ...copy, x_mm: (arranged[0]?.x_mm ?? 0) + i, y_mm: arranged[0]?.y_mm ?? 0 }));
     await slicer.update(id, { copies: 2 });
     const problems = await slicer.problems(options, overlapping);

@@ -2,9 +2,13 @@
 import axe from "axe-core";
 import type { Page } from "playwright-core";
 
-/** Rules broken, with the elements that break them. @param rules if not all */
+/**
+ * Rules broken, with the offending elements.
+ *
+ * @param rules by default all
+ */
 export async function broken(page: Page, rules?: readonly string[]): Promise<string[]> {
-  // Evaluated, not added as a script: the page's policy allows no inline scripts.
+  // Evaluated, not added as a script, since the page's policy forbids inline scripts.
   if (!(await page.evaluate(() => "axe" in window))) await page.evaluate(axe.source);
   const { violations } = await page.evaluate(
     (rules) => (window as unknown as { axe: { run(options: axe.RunOptions): Promise<axe.AxeResults> } }).axe.run({ resultTypes: ["violations"], ...(rules !== null && { runOnly: [...rules] }) }),

@@ -5,7 +5,7 @@ import { chromium, type Browser, type BrowserContextOptions, type Download, type
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { program } from "./program.js";
 
-/** The page's element, or that of a shop. */
+/** The element of the page or of a shop. */
 const ELEMENT = ":is(cusp-workbench, cusp-slicer)";
 
 const FLAGS = [
@@ -17,16 +17,13 @@ const FLAGS = [
   "--disable-sync",
 ];
 
-/**
- * Without any of the flags below there is no software GPU: it would put the page together as well, which takes more than half of the
- * time of a plan.
- */
+/** Without the flags below there is no software GPU, which would also compose the page and take more than half of the time of a plan. */
 const NO_GPU = "--disable-software-rasterizer";
 
-/** A software adapter provides WebGPU, so that the page works as on a machine with a GPU. */
+/** WebGPU by a software adapter, so that the page behaves as on a machine with a GPU. */
 export const SOFTWARE_GPU = ["--enable-unsafe-webgpu", "--use-webgpu-adapter=swiftshader"];
 
-/** Lets WebGL draw in software, without a GPU. */
+/** WebGL in software, without a GPU. */
 export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 /** The browser named by CHROMIUM, or the first of its usual names on PATH. */
@@ -36,7 +33,7 @@ function executable(): string {
   return found;
 }
 
-/** @param flags for the browser, in addition to those that all tests need */
+/** @param flags additional flags of the browser */
 export function launch(flags: readonly string[] = [NO_GPU]): Promise<Browser> {
   const env = { ...process.env, CUSP_CHROMIUM: executable() };
   return chromium.launch({ executablePath: fileURLToPath(new URL("chromium.sh", import.meta.url)), env, args: [...FLAGS, ...flags] });
@@ -44,21 +41,21 @@ export function launch(flags: readonly string[] = [NO_GPU]): Promise<Browser> {
 
 export interface Opened {
   page: Page;
-  /** Requested addresses other than the page's own. There must be none. */
+  /** Requested URLs outside the page's origin. There must be none. */
   strangers: string[];
-  /** What the page threw or logged as an error. */
+  /** Exceptions and logged errors of the page. */
   complaints: string[];
 }
 
-/** A browser as the page's tests want it. */
+/** Default options of a browser context. */
 export const USUAL = {
   locale: "en-GB",
   viewport: { width: 1280, height: 900 },
-  // A service worker would answer requests that the tests want to answer.
+  // A service worker would answer requests that the tests intercept.
   serviceWorkers: "block",
 } as const satisfies BrowserContextOptions;
 
-/** A fresh page at `address`, whose foreign requests and errors are recorded. */
+/** A fresh page at `address`, with foreign requests and errors recorded. */
 export async function open(browser: Browser, address: string, options: BrowserContextOptions = {}): Promise<Opened> {
   const context = await browser.newContext({ ...USUAL, ...options });
   return visit(await context.newPage(), address);
@@ -79,7 +76,7 @@ export async function visit(page: Page, address: string): Promise<Opened> {
   });
   await page.goto(address);
   await page.waitForSelector(`${ELEMENT}[state=empty]`);
-  // The tour of a first visit would stand in front of what tests look at.
+  // The tour of a first visit would cover the page.
   await page.evaluate(() => localStorage.setItem("cusp.tour", "shown"));
   return { page, strangers, complaints };
 }
@@ -89,9 +86,9 @@ export interface DroppedFile {
   bytes: Uint8Array;
 }
 
-/** Drops files on the page as a file manager would. Returns the page's clock at the drop, in ms. */
+/** Drops files on the page, like a file manager. Returns the page's clock at the drop, in ms. */
 export async function drop(page: Page, ...files: DroppedFile[]): Promise<number> {
-  // Serves the bytes to the page: as base64 in a message, a large model would take seconds.
+  // Serves the bytes to the page; as base64 in a message, a large model would take seconds.
   const address = new URL("e2e-drop/", page.url()).href;
   await page.route(`${address}*`, (route) => {
     const file = files[Number(route.request().url().slice(address.length))];
@@ -124,7 +121,7 @@ export async function state(page: Page, wanted: string, timeout = 30_000): Promi
   await page.waitForSelector(`${ELEMENT}[state=${wanted}]`, { timeout });
 }
 
-/** Waits, after a change of settings, until the plan on show matches them. */
+/** Waits, after a change of settings, until the plan shown matches them. */
 export async function settled(page: Page): Promise<void> {
   // A change makes the element busy before the next frame.
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(resolve)));
@@ -135,17 +132,17 @@ export async function layers(page: Page): Promise<number> {
   return Number(await page.locator("[data-layers]").getAttribute("data-layers"));
 }
 
-/** The element's text, with every run of white space as one space: thin and no-break spaces are mere typography. */
+/** The element's text with white space normalised, which makes thin and no-break spaces plain. */
 export async function words(page: Page): Promise<string> {
   return (await page.locator(":is(cusp-workbench .bench, cusp-slicer .slicer)").innerText()).replace(/\s+/g, " ");
 }
 
-/** Opens a panel of the page beside the view: a step, a tab, or the button of a sheet on a narrow page. */
+/** Opens a panel of the page: a step, a tab, or the button of a sheet on a narrow page. */
 export async function openPanel(page: Page, name: string): Promise<void> {
   await page.getByRole("tab", { name }).or(page.locator("nav").getByRole("button", { name })).click();
 }
 
-/** Waits until the mask on show is that of this layer, counted from 0. */
+/** Waits until the mask of this layer is shown, counted from 0. */
 export async function maskOf(page: Page, layer: number): Promise<void> {
   await page.waitForSelector(`canvas[data-layer="${layer}"]`);
 }
@@ -158,7 +155,7 @@ export async function download(page: Page): Promise<Download> {
   return file;
 }
 
-/** A print file as the page saves it. */
+/** The print file saved by the page. */
 export async function downloaded(page: Page): Promise<{ name: string; bytes: Buffer }> {
   const file = await download(page);
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };

@@ -1,4 +1,4 @@
-/** Cancelling at every stage, and what remains afterwards. */
+/** Cancelling at every stage, and the state afterwards. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { download, drop, layers, maskOf, openPanel, state, words } from "./browser.js";
@@ -10,7 +10,7 @@ const start = pages();
 // Enough facets and rays to observe each stage.
 const heavy = { name: "heavy.stl", bytes: sphere(10, 700).bytes };
 
-/** Presses Cancel as soon as the progress bar shows these words; runs in the page, so as not to be late. */
+/** Presses Cancel as soon as the progress bar shows this stage; runs in the page to avoid delay. */
 async function cancelWhen(page: Page, stage: string): Promise<void> {
   await page.evaluate((wanted) => {
     const root = document.querySelector("cusp-workbench")?.shadowRoot;
@@ -57,7 +57,8 @@ test("a cancel answers at every stage and leaves what was there before, by butto
   await state(page, "done");
   expect((await download(page)).suggestedFilename()).toBe("heavy-cusp.zip");
 
-  // Pressed in the page after some turns of its own thread, of which a frozen page has none: a plan may be over before a busy machine looks.
+  // Pressed in the page after some turns of its event loop, of which a frozen page has none. A busy machine might look too late, after the
+  // plan.
   await page.evaluate(() => {
     let turns = 0;
     const counting = setInterval(() => {

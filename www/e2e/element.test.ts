@@ -1,4 +1,4 @@
-/** The element on a third-party page, from the package as it is published: attributes, events, methods, prices, and what goes wrong. */
+/** The element on a third-party page, from the published package: attributes, events, methods, prices, and errors. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspSlicer } from "../src/element/index.js";
@@ -8,7 +8,7 @@ import { cup, floating, prism, sphere } from "./solids.js";
 
 const html = `<!doctype html><html lang="de"><meta charset="utf-8" /><title>Shop</title>
 <script type="module" src="main.js"></script><body></body></html>`;
-// What the page's own script would do: record events, and register the class under its own name.
+// Script of the page: records events, and registers the class under its own name.
 const main = `
 import "./cusp-slicer/element.js";
 import { CuspSlicer } from "./cusp-slicer/element-class.js";
@@ -34,7 +34,7 @@ const done = (page: Page, id: string): Promise<unknown> => page.waitForSelector(
 
 const events = (page: Page, id: string): Promise<string[]> =>
   page.evaluate((id) => (document as unknown as Told).told.filter(([from]) => from === id).map(([, name]) => name), id);
-/** The progress of the plan in each event of an element. */
+/** Progress of the plan in each event of an element. */
 const planned = (page: Page, id: string): Promise<number[]> =>
   page.evaluate((id) => {
     const told = (document as unknown as Told).told.filter(([from, name, { task }]) => from === id && name === "cusp-progress" && task === "plan");
@@ -62,7 +62,7 @@ test("two of them work side by side, each with its own model, settings and langu
     document.body.append(far);
   });
   await page.waitForSelector("#far[state=empty]");
-  // Browsers say what is in view after a frame.
+  // Browsers report visibility after a frame.
   await page.evaluate(() => new Promise((resolve) => requestAnimationFrame(() => requestAnimationFrame(resolve))));
   expect([modules, page.workers().length]).toEqual([[], 0]);
   await page.evaluate((markup) => document.body.prepend(document.createRange().createContextualFragment(markup)),
@@ -83,7 +83,7 @@ test("two of them work side by side, each with its own model, settings and langu
     { tolerance: 0.2, metric: "area", layer_min_mm: 0.04, layer_max_mm: 0.1 },
   ]);
   expect(await page.locator("#a .download").innerText()).toBe("Download print file");
-  // The page is German, its reader French: the page's language takes precedence.
+  // The page is German, its reader French; the page's language takes precedence.
   expect(await page.locator("#b .download").innerText()).toBe("Druckdatei herunterladen");
   expect(await page.locator("#b cusp-chart").count()).toBe(0);
   for (const id of ["a", "b"]) {
@@ -91,7 +91,7 @@ test("two of them work side by side, each with its own model, settings and langu
     expect(names.filter((name) => name !== "cusp-progress" && name !== "cusp-change")).toEqual(["cusp-load", "cusp-plan"]);
     const done = await planned(page, id);
     expect(done).toEqual(done.toSorted((a, b) => a - b));
-    // The last steps may come after the plan, and are then not reported.
+    // The last steps may come after the plan, and are not reported then.
     expect(done.at(-1)).toBeGreaterThan(0);
   }
   const workers = page.workers().length;
@@ -105,7 +105,7 @@ test("methods load, plan, export and cancel; a shop takes the print file instead
   const found = await page.evaluate(async () => {
     const element = document.querySelector<CuspSlicer>("#a");
     if (element === null) throw new Error("there is no element");
-    // A `DOMException` has its own code, which is a number.
+    // A `DOMException` has its own numeric code.
     const name = (error: Error & { code?: unknown }): string => (typeof error.code === "string" ? error.code : error.name);
     const early = await element.plan().catch(name);
     const none = await element.export().catch(name);
@@ -139,7 +139,7 @@ test("methods load, plan, export and cancel; a shop takes the print file instead
   expect(found.layers[1]).toBeGreaterThan(found.layers[0] ?? 0);
   expect(await events(page, "a")).toContain("cusp-error");
 
-  // A part that hangs in the air is warned of, in words, in the plan and in the file.
+  // A floating part causes a warning with a sentence, both in the plan and in the file.
   const warnings = await page.evaluate(async () => {
     const element = document.querySelector<CuspSlicer>("#a");
     element?.setAttribute("locale", "en");
@@ -155,7 +155,7 @@ test("methods load, plan, export and cancel; a shop takes the print file instead
   await page.evaluate(() => document.querySelector("#a")?.addEventListener("cusp-export", (event) => event.preventDefault(), { once: true }));
   await page.locator("#a .download").click();
   await expect.poll(() => events(page, "a")).toContain("cusp-export");
-  // The next one is the browser's again, and the first that it saves.
+  // The browser handles the next one again, and saves it first.
   await page.locator("#a .download").click();
   await expect.poll(() => saved).toEqual(["floating-cusp.zip"]);
 });
@@ -233,7 +233,7 @@ test("a printer of the page's own is a property, and customers cannot bring anot
   });
   expect(found).toEqual({ printer: "ours", mask: [800, 800], tolerance: 0.06, name: "small-cusp.prz" });
   expect(await page.locator("#a #printer-hint").innerText()).toMatch(/^Set by this page\. Our Printer: 800 × 800 pixels/);
-  // Whether it was tried with several thicknesses is the page's business.
+  // The page decides whether the printer was tried with several thicknesses.
   expect(await page.locator("#a .warning").count()).toBe(0);
 });
 
@@ -295,7 +295,7 @@ test("the price of a shop stands under the result, and follows quality and copie
   await field.fill("3");
   await field.press("Enter");
   await expect.poll(priced).toMatchObject({ copies: 3 });
-  // Prices that cannot be used are the page's fault, and leave the plan alone.
+  // Invalid prices are the page's fault, and do not affect the plan.
   await page.evaluate(() => {
     const slicer = document.querySelector<CuspSlicer>("#a");
     if (slicer !== null) slicer.prices = { currency: "euro" };
@@ -329,7 +329,7 @@ test("a page adds models with copies and poses of their own, and has the plans a
     const loaded: string[] = [];
     element.addEventListener("cusp-load", ({ detail }) => loaded.push(detail.name));
     const alone = element.plates;
-    // Not awaited: both are added, one after the other.
+    // Not awaited: both are added, in order.
     const adding = element.add("block.stl", { copies: 20, height_mm: 4 }, "low.stl");
     const bad = element.add("main.js").catch((error: { code: string }) => error.code);
     const again = element.add(new URL("ball.stl", location.href), { copies: 20 });

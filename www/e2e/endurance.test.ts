@@ -1,4 +1,4 @@
-/** Many models in a row leave as much in memory as two: six, or 500 by `npm run endurance`. */
+/** Many models in a row leave no more memory in use than two: six models, or 500 with `npm run endurance`. */
 import { expect, test } from "vitest";
 import { drop, openPanel, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
@@ -6,18 +6,21 @@ import { sphere } from "./solids.js";
 import { said, watchContexts, watchUsage, type Usage } from "./usage.js";
 
 const MODELS = process.env["ENDURANCE"] === undefined ? 6 : 500;
-/** After this many models, all that is made once exists: compiled code, workers, the view. */
+/** After this many models, everything made only once exists: compiled code, workers, the view. */
 const WARM = 2;
 
-/** Points around each model: all models have equally many facets, and so need equally much memory. */
+/** Points around each model. All models have the same number of facets, and so need the same memory. */
 const AROUND = 256;
 const FACETS = AROUND * (AROUND - 2);
-/** The corners of a model's facets, nine numbers of four bytes each: the least that a leaked model would hold. */
+/** Corners of a model's facets, nine numbers of four bytes each: the minimum size of a leaked model. */
 const MODEL_BYTES = FACETS * 9 * 4;
 
-/** Slack of the page, for what the browser's compiler and caches take meanwhile: less than two models. */
+/** Allowance for the browser's compiler and caches in the page: less than two models. */
 const HEAP_SLACK_BYTES = 2 * MODEL_BYTES;
-/** How often a worker's memory, which never shrinks, may grow: for pieces that fit in no hole. If models leaked, it would grow with each. */
+/**
+ * Maximum number of times that a worker's memory, which never shrinks, may grow because of fragmentation. With a leak, it would grow with
+ * each model.
+ */
 const CORE_GROWS = Math.ceil(MODELS / 5);
 /** A leaked model would hold some 600 nodes and 40 listeners. */
 const NODE_SLACK = 200;
@@ -32,11 +35,10 @@ test("models in a row leave the memory where it was", async () => {
   const used: Usage[] = [];
   for (let i = 1; i <= MODELS; i++) {
     const name = `ball-${i}.stl`;
-    // Most are a little lower than the one before, so that the freed memory suffices: the test looks for leaks, not
-    // for whether the holes that larger models leave happen to fit.
+    // Most are slightly lower than the previous one, so that the freed memory suffices: the test detects leaks, not fragmentation.
     const height_mm = 2 * (12 - 0.1 * ((i - 1) % 10));
     await drop(page, { name, bytes: sphere(height_mm / 2, AROUND).bytes });
-    // The previous model is on show until this one is read.
+    // The previous model stays visible until this one is read.
     await expect.poll(() => page.locator(".model-name").allInnerTexts()).toEqual([name]);
     await state(page, "done");
     // Not `waitForSelector`, whose result would keep the canvas alive.

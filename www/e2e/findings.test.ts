@@ -1,4 +1,4 @@
-/** What will fail, as the page tells it: findings, where they are, and that they follow the model. */
+/** Findings on the page: their kinds and places, and their updates with the model. */
 import { execFile } from "node:child_process";
 import { mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -47,11 +47,11 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   // Marked in the mask, in the chart, and in the view.
   expect(await page.locator("cusp-mask canvas[data-marked]").count()).toBe(1);
   const [band, plot] = await Promise.all([page.locator("cusp-chart .range").boundingBox(), page.locator("cusp-chart .u-over").boundingBox()]);
-  // Of 8 mm, the hollow begins 1.5 mm above the plate.
+  // The model is 8 mm high; the hollow begins 1.5 mm above the plate.
   expect((band?.height ?? 0) / (plot?.height ?? 1)).toBeCloseTo(6.5 / 8, 1);
   expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.marks[0]?.bounds_mm[1][2])).toBeCloseTo(8, 1);
 
-  // With the limits of a shop, the page hears the verdict.
+  // With a shop's limits, the page receives the verdict.
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     element.addEventListener("cusp-check", ({ detail }) => void (document.body.dataset["told"] = detail.verdict));
     element.limits = { severity: { cup: "reject" } };
@@ -60,7 +60,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   await expect.poll(told).toBe("reject");
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.limits = { cup_mm2: 1000 }));
   await expect.poll(told).toBe("ok");
-  // They are checked without a panel.
+  // Checked even without a panel.
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     element.limits = {};
     element.query = "rotation=1,0,0,0";
@@ -73,7 +73,7 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
 
 test("on a plate a finding is marked on each copy that stands alike, and warnings name their model", async () => {
   const page = await start("?backend=cpu&printer=mars-4-ultra&rays=512");
-  // Of a block a side is missing.
+  // A block without one side.
   const block = prism(12, 8).bytes.slice(0, -50);
   const facets = new DataView(block.buffer);
   facets.setUint32(80, facets.getUint32(80, true) - 1, true);
@@ -103,7 +103,7 @@ test.skipIf(program === undefined)("the page finds what the command line does", 
     await writeFile(model, mug.bytes);
     const { stdout } = await promisify(execFile)(program ?? "", ["check", model, "--json"]);
     const told = JSON.parse(stdout) as { plates: { models: ModelPrintability[] }[] };
-    // As JSON: what is undefined here is null there.
+    // As JSON, which turns undefined into null.
     const plain = ({ verdict, findings, counts, bodies, peel }: Partial<ModelPrintability>): unknown =>
       JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
     expect(plain(check?.models[0] ?? {})).toEqual(plain(told.plates[0]?.models[0] ?? {}));

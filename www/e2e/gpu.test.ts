@@ -1,4 +1,4 @@
-/** Plans on a GPU, which is software here, and without one. */
+/** Plans with a GPU, in software here, and without one. */
 import { expect, test } from "vitest";
 import { drop, layers, SOFTWARE_GPU, state, words } from "./browser.js";
 import { pages } from "./pages.js";
@@ -15,7 +15,7 @@ test("the GPU gives the plan that the CPU gives", async (context) => {
     ["backend=cpu", "Computed on the CPU"],
     ["backend=gpu", "filling"],
   ] as const) {
-    // A view that software draws quickly.
+    // A view that is quick to draw in software.
     const page = await start(`?rays=256&${query}`, { viewport: { width: 1280, height: 400 }, deviceScaleFactor: 0.5 });
     const hasAdapter = await page.evaluate(async () => (await navigator.gpu?.requestAdapter()) != null);
     if (!hasAdapter) context.skip("this browser offers no WebGPU adapter");

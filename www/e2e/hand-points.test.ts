@@ -11,7 +11,7 @@ import { prism, sphere } from "./solids.js";
 
 const start = pages(SOFTWARE_GL);
 
-/** A view that software draws quickly. */
+/** A view that is quick to draw in software. */
 const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 
 const RADIUS = 10;
@@ -28,7 +28,7 @@ async function opened(query: string, tool: string): Promise<Page> {
   return page;
 }
 
-/** Where the points of the plan are. */
+/** Points of the plan's supports. */
 const supported = (page: Page): Promise<Triple[]> =>
   page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.supported?.points.map(({ at_mm }) => at_mm) ?? []);
 
@@ -39,7 +39,7 @@ const query = (page: Page): URLSearchParams => new URL(page.url()).searchParams;
 
 const count = (page: Page, name: string): Promise<string> => page.locator("section.points dl div", { hasText: name }).locator("dd").innerText();
 
-/** A place of the view, as parts of its width and height. */
+/** A point of the view, given as fractions of its width and height. */
 async function placeIn(view: Locator, x: number, y: number): Promise<[number, number]> {
   const box = await view.boundingBox();
   if (box === null) throw new Error("there is no view");
@@ -52,7 +52,7 @@ async function isMarker(page: Page, at: readonly [number, number]): Promise<bool
   return page.locator("cusp-view .scene.over").count().then((count) => count > 0);
 }
 
-/** Where a marker is, straight above a place. */
+/** Position of the marker above a point of the view. */
 async function markerAbove(page: Page, [x, from]: readonly [number, number]): Promise<[number, number]> {
   const found: number[] = [];
   for (let y = from; y > 0; y -= 10) {
@@ -70,12 +70,12 @@ test("a click adds the first point, a drag moves it along the surface, a key del
   const middle = await placeIn(view, 0.5, 0.55);
   await page.mouse.click(...middle);
   await settled(page);
-  // That point alone: nobody has asked for others.
+  // Only that point, since no others were requested.
   expect(await supported(page)).toHaveLength(1);
   const [first] = await supported(page);
   if (first === undefined) throw new Error("the point is not in the plan");
   expect(radius(first)).toBeCloseTo(RADIUS, 1);
-  // On the side that is seen.
+  // On the visible side.
   expect(first[1]).toBeLessThan(0);
   expect([query(page).get("supports"), query(page).get("points")?.split(";")]).toEqual(["medium", [expect.stringMatching(/,,1$/)]]);
   expect([await count(page, "By hand"), await count(page, "Automatic")]).toEqual(["1", "0"]);
@@ -115,7 +115,7 @@ test("a click adds the first point, a drag moves it along the surface, a key del
 test("points are placed, chosen, locked and deleted by keyboard; those of a turned and scaled model are on its surface", async () => {
   const page = await opened("&height=30&rotation=0.5,0.5,0.5,0.5", "Support points");
   await page.locator("cusp-view .scene").focus();
-  // To see it from below: nothing gets to its top.
+  // Turn to see it from below: no support reaches its top.
   for (let i = 0; i < 4; i++) await page.keyboard.press("Shift+ArrowUp");
   await page.keyboard.press("Enter");
   const radii = async (): Promise<number[]> => (await supported(page)).map(([x, y, z]) => Math.hypot(x, y, z - 15));
@@ -129,7 +129,7 @@ test("points are placed, chosen, locked and deleted by keyboard; those of a turn
   await page.getByText("Point 1 of 2, at").waitFor();
   await page.keyboard.press("l");
   await expect.poll(() => page.getByRole("checkbox", { name: "Locked" }).isChecked()).toBe(false);
-  // While the plan is made anew, the panel is drawn again and again.
+  // The panel is redrawn repeatedly during planning.
   await page.getByLabel("Diameter (mm)").fill("0.8");
   await settled(page);
   expect(await page.getByLabel("Diameter (mm)").inputValue()).toBe("0.8");
@@ -156,7 +156,7 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
   const own = after.find(({ diameter_mm }) => diameter_mm === 2.5);
   if (own === undefined) throw new Error("the hole is not in the plan");
   expect(radius(own.at_mm)).toBeCloseTo(RADIUS, 1);
-  // To the middle of the ball, but for the facet's slope.
+  // Towards the centre of the ball, up to the facet's slope.
   const [x, y, z] = own.at_mm;
   expect((own.direction[0] * -x + own.direction[1] * -y + own.direction[2] * (RADIUS - z)) / RADIUS).toBeGreaterThan(0.98);
   expect(query(page).get("drain")).toBe("none");
@@ -169,7 +169,7 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
   expect([facets > 0, facets % after.length]).toEqual([true, 0]);
   expect(await broken(page)).toEqual([]);
 
-  // While supports and holes keep off what weighs much, the view shows the weights.
+  // While supports and holes avoid large weights, the view shows the weights.
   const shown = (): Promise<readonly [string, string]> => page.locator("cusp-view").evaluate(({ look, heat }: CuspView) => [look, heat] as const);
   const spare = page.getByRole("switch", { name: "Keep points and holes off what is painted as important" });
   expect(await spare.isDisabled()).toBe(true);
@@ -214,7 +214,7 @@ test("of several models each has points of its own, placed on it alone; its copi
   await page.locator("cusp-model section.points").waitFor();
   // The ball alone, in the middle.
   expect(await page.locator("cusp-view").evaluate((it: CuspView) => it.copies.length)).toBe(0);
-  // To clear them is for a model alone: supports are asked for on all.
+  // Clear is only for a single model, since the setting for supports is shared.
   expect(await page.locator("section.points").getByRole("button", { name: "Clear" }).count()).toBe(0);
   await page.mouse.click(...(await placeIn(page.locator("cusp-view"), 0.5, 0.55)));
   await settled(page);

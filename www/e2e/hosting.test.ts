@@ -1,4 +1,4 @@
-/** The page behind the web servers of docs/hosting.md, with the configurations that are written there, below a path. */
+/** The page behind the web servers of docs/hosting.md, with the configurations given there, below a path. */
 import { execFileSync, spawn, type ChildProcess } from "node:child_process";
 import { cp, mkdir, mkdtemp, readdir, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -15,9 +15,9 @@ const guide = await readFile(join(www, "../docs/hosting.md"), "utf8");
 
 interface Server {
   encoding: string;
-  /** How long assets are kept. */
+  /** Cache lifetime of assets. */
   kept: string;
-  /** The server's own configuration, around the guide's, and how to start it. */
+  /** Writes the server's base configuration around the guide's, and returns the command to start it. */
   start(written: string, port: number, folder: string): Promise<readonly string[]>;
 }
 
@@ -133,7 +133,7 @@ for (const [name, server] of Object.entries(SERVERS)) {
       expect.soft(header("cross-origin-opener-policy"), file).toBe("same-origin");
       expect.soft(header("cross-origin-resource-policy"), file).toBe("same-origin");
     }
-    // Compressed or not, each is the file that was built.
+    // Compressed or not, each equals the built file.
     for (const asset of assets) {
       const built = await readFile(join(www, "dist", asset));
       for (const encoding of [server.encoding, "identity"]) {

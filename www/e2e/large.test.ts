@@ -1,13 +1,13 @@
-/** A large model in the page, whose own thread must do little of the work. */
+/** A large model in the page: its main thread must do little of the work. */
 import { expect, test } from "vitest";
 import { download, openPanel, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
 const large = { name: "large.stl", bytes: sphere(10, 400).bytes };
-/** Options, names and handles. The positions alone are 6 MB. */
+/** Enough for options, names and handles. The positions alone are 6 MB. */
 const MESSAGES_BYTES = 10_000;
-/** Corners that may be drawn on the canvas itself. The model has half a million. */
+/** Maximum number of corners drawn directly on the canvas. The model has half a million. */
 const CORNERS = 100_000;
 
 interface Meter {
@@ -15,7 +15,7 @@ interface Meter {
   read: number;
   /** Bytes that the page copied into messages to its workers. */
   copied: number;
-  /** Most corners in one call that drew on the canvas itself, which may block the page until the picture is ready. */
+  /** Maximum number of corners in one call that draws directly on the canvas, which may block the page until the picture is ready. */
   drawn: number;
 }
 
@@ -25,7 +25,7 @@ declare global {
   }
 }
 
-/** Runs before the page's own scripts: counts what its thread reads, copies and draws. */
+/** Runs before the page's own scripts: measures reading, copying and drawing on its main thread. */
 function meter(): void {
   const found: Meter = { read: 0, copied: 0, drawn: 0 };
   window.meter = found;

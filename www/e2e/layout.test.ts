@@ -1,4 +1,4 @@
-/** How the page is laid out and coloured: wide and narrow, in every language, light, dark and in forced colours. */
+/** Layout and colours of the page: wide and narrow, in every language, light, dark and in forced colours. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { LANGUAGES } from "../src/texts/index.js";
@@ -15,8 +15,8 @@ const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile:
 const PANELS = ["cusp-settings", "cusp-orientation", "cusp-findings", "cusp-quality", "cusp-mask", "cusp-chart"];
 
 /**
- * What does not fit once each of these buttons of the page was pressed: texts that leave their panel or lie on each other, choices
- * and names of buttons that are cut, and the page itself if it is wider than the window. Looked at in the page, for there is much.
+ * Layout faults after pressing each of these buttons: text that leaves its panel or overlaps, clipped options and button labels, and a page
+ * wider than the window. Evaluated in the page, since there are many elements.
  */
 function misfits(page: Page, pressed = "", panels: readonly string[] = PANELS): Promise<string[]> {
   return page.evaluate(
@@ -52,7 +52,7 @@ function misfits(page: Page, pressed = "", panels: readonly string[] = PANELS): 
             if (pen === null) continue;
             pen.font = font;
             const room = select.clientWidth - parseFloat(paddingInlineStart) - parseFloat(paddingInlineEnd);
-            // The names of printers may be long: they end in an ellipsis.
+            // Long names of printers end in an ellipsis.
             if (select.id === "printer") continue;
             for (const { text } of select.selectedOptions) if (pen.measureText(text).width > room) say(`cut: ${text}`);
           }
@@ -96,7 +96,7 @@ test("no text is cut, sticks out or lies on another in any language, on a deskto
     await page.locator("select", { has: page.locator("option[lang=de]") }).selectOption(code);
     await expect.poll(() => page.locator("html").getAttribute("lang")).toMatch(new RegExp(`^${code}`));
   };
-  // Names as long as they come.
+  // A very long name.
   await drop(page, { name: `${"a-very-long-name-".repeat(8)}.txt`, bytes: new Uint8Array(1) });
   await state(page, "error");
   for (const code of LANGUAGES) {
@@ -114,7 +114,7 @@ test("no text is cut, sticks out or lies on another in any language, on a deskto
     await page.setViewportSize({ width: 320, height: 800 });
     expect(await misfits(page, ":is(.path, .bar-panels) button"), `${code}, 320 px`).toEqual([]);
     await page.locator("cusp-workbench .sheet").waitFor();
-    // In letters as wide as any font of a system.
+    // As wide as the widest system font.
     await page.evaluate(() => {
       document.documentElement.style.fontSize = "112.5%";
       document.querySelector<HTMLElement>("cusp-workbench")?.style.setProperty("--cusp-font", "monospace");
@@ -127,14 +127,14 @@ test("no text is cut, sticks out or lies on another in any language, on a deskto
   }
 });
 
-/** Pixels that the page is larger than its window. */
+/** Overflow of the page beyond its window, pixels. */
 const overflow = (page: Page): Promise<[number, number]> =>
   page.evaluate(() => {
     const { scrollWidth, scrollHeight } = document.documentElement;
     return [scrollWidth - innerWidth, scrollHeight - innerHeight];
   });
 
-/** Expects all of these in the window and not cut off by a panel that scrolls. */
+/** Expects all of these inside the window and not clipped by a scrolling panel. */
 async function inSight(page: Page, selectors: readonly string[]): Promise<void> {
   for (const selector of selectors) {
     const ratio = await page.locator(selector).first().evaluate(
@@ -188,7 +188,7 @@ test("at 1280 × 800 nothing scrolls from the drop to the download, nothing move
     return (box?.width ?? 0) * (box?.height ?? 0);
   };
   const before = await area();
-  // The largest thing on the screen.
+  // The largest element on the screen.
   const others = await page.locator(".side > *").evaluateAll((them) => them.map((it) => it.clientWidth * it.clientHeight));
   expect(Math.max(...others)).toBeLessThan(before);
   await page.setViewportSize({ width: 1920, height: 1080 });
@@ -238,7 +238,7 @@ test("on a phone the view comes first, the bar stays, and panels are sheets, whi
   await page.locator(".sheet").getByRole("heading", { name: "Check", level: 2 }).waitFor();
   await page.keyboard.press("Escape");
   await expect.poll(focused).toContain("Check");
-  // What is not in the sheet keeps the focus.
+  // Elements outside the sheet keep the focus.
   await open("Slice");
   const slider = page.getByRole("slider", { name: "Layer in the view" });
   await slider.focus();
@@ -260,7 +260,7 @@ test("the slider beside the view stands at the height of its layer, also where t
     await page.keyboard.press(key);
     await expect.poll(said).toMatch(new RegExp(`^Layer ${layer} of ${count}`));
   }
-  /** Where the slider's thumb and the chart's marker are, from the window's top. */
+  /** Positions of the slider's thumb and the chart's marker, from the window's top. */
   const tops = (): Promise<[number, number]> =>
     slider.evaluate((element) => {
       const input = element as HTMLInputElement;
@@ -349,7 +349,7 @@ test("forced colours reach the chart, and what is chosen or wrong is told withou
   const page = await start("?rays=512");
   await drop(page, ball);
   await state(page, "done");
-  /** Pixels of the canvas in a system colour. */
+  /** Number of canvas pixels in a system colour. */
   const pixels = (system: string): Promise<number> =>
     page.locator("cusp-chart canvas").evaluate((it, system) => {
       const canvas = it as HTMLCanvasElement;

@@ -1,4 +1,4 @@
-/** The chart of the profile and the masks, by mouse, keyboard and fingers. */
+/** The profile chart and the masks, by mouse, keyboard and touch. */
 import type { BrowserContextOptions, Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { PlotPlace } from "../src/element/panels/profile-chart.js";
@@ -19,7 +19,7 @@ async function opened(query = "", options: BrowserContextOptions = {}): Promise<
 
 const plot = (page: Page): Locator => page.locator("cusp-chart .plot");
 
-/** Waits until the chart has drawn itself, and from then on keeps what it says of its heights. */
+/** Waits for the chart, and returns a function for the heights it last reported. */
 async function heights(page: Page): Promise<() => Promise<[low: number, high: number]>> {
   await page.locator("cusp-chart .marker").waitFor({ state: "attached" });
   const chart = page.locator("cusp-chart");
@@ -74,7 +74,7 @@ test("the chart is read by pointer, a click looks at a layer, a pinch zooms; key
   await keys("+", "=");
   await expect.poll(shown).toEqual([expect.closeTo(BALL_MM - BALL_MM / 1.5 ** 2, 1), expect.closeTo(BALL_MM, 1)]);
   await whole.waitFor();
-  // What is on show follows the layer.
+  // The visible range follows the layer.
   await keys("Home");
   await expect.poll(shown).toEqual([expect.closeTo(0, 1), expect.closeTo(BALL_MM / 1.5 ** 2, 1)]);
   await keys("-");
@@ -82,7 +82,7 @@ test("the chart is read by pointer, a click looks at a layer, a pinch zooms; key
   await keys("0");
   await expect.poll(shown).toEqual([0, BALL_MM]);
   await expect.poll(() => whole.count()).toBe(0);
-  // However far: some layers stay on show.
+  // The zoom is limited: some layers stay visible.
   await keys(...Array.from({ length: 20 }, () => "+"));
   await expect.poll(async () => -(await shown()).reduce((low, high) => low - high)).toBeCloseTo(0.6, 6);
   await whole.click();
@@ -97,7 +97,7 @@ test("two fingers zoom and move the chart, one scrolls what it stands in, a tap 
   const box = await page.locator("cusp-chart .u-over").boundingBox();
   if (box === null) throw new Error("there is no chart");
   const session = await page.context().newCDPSession(page);
-  /** Heights as parts of the plot; the fingers lie one above the other. */
+  /** Positions are fractions of the plot's height; the fingers lie one above the other. */
   const touch = (type: "touchStart" | "touchMove" | "touchEnd", ...parts: number[]): Promise<unknown> =>
     session.send("Input.dispatchTouchEvent", {
       type,
@@ -127,7 +127,7 @@ test("two fingers zoom and move the chart, one scrolls what it stands in, a tap 
   await expect.poll(async () => Number(/at (\d+\.\d+)/.exec((await text()) ?? "")?.[1])).toBeCloseTo(15, 0);
   await expect.poll(() => said.innerText()).toMatch(/^At 1[45]\.\d+\smm: /);
 
-  // In a box that scrolls, as a page does.
+  // In a scrolling box, like a page.
   await page.evaluate((element) => {
     const chart = document.querySelector(element)?.shadowRoot?.querySelector("cusp-chart");
     const section = chart?.parentElement;
@@ -152,7 +152,7 @@ test("two fingers zoom and move the chart, one scrolls what it stands in, a tap 
   await page.waitForSelector("canvas[data-layer]");
   const well = await page.locator("cusp-mask .well").boundingBox();
   if (well === null) throw new Error("there is no picture");
-  // At the left edge of the ball, so that there is something to see when it moves.
+  // At the left edge of the ball, so that movement is visible.
   const [x, y] = [well.x + (well.width - well.height) / 2 + 10, well.y + well.height / 2];
   const point = async (type: "touchStart" | "touchMove" | "touchEnd", ...fingers: (readonly [number, number])[]): Promise<void> => {
     await session.send("Input.dispatchTouchEvent", { type, touchPoints: fingers.map(([x, y], id) => ({ x, y, id })) });

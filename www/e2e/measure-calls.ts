@@ -1,10 +1,10 @@
-/** Measures calls of the headless slicer, on a page that has nothing else: a search for the best orientation, and cancels. */
+/** Measures calls of the headless slicer on an otherwise empty page: an orientation search, and cancels. */
 import type { Page } from "playwright-core";
 import type * as Api from "../src/api/index.js";
 import { launch } from "./browser.js";
 import { serveApi } from "./packed.js";
 
-/** Measures on a page that has the slicer as `window.api`, and this model beside it as `model.stl`. */
+/** Measures on a page with the slicer as `window.api`, and this model as `model.stl`. */
 async function onApiPage(model: Uint8Array, measure: (page: Page) => Promise<void>): Promise<void> {
   const served = await serveApi({ "model.stl": model });
   const browser = await launch();
@@ -25,8 +25,8 @@ const spread = (values: readonly number[]): string => {
 };
 
 /**
- * From the call to its answer, with one worker and with as many as there are cores. The time includes starting the workers, as when a
- * user presses the button.
+ * From the call to its answer, with one worker and with one per core. The time includes starting the workers, as when a user presses the
+ * button.
  */
 export async function directions(model: Uint8Array, height_mm: number, rounds: number): Promise<void> {
   await onApiPage(model, async (page) => {

@@ -1,15 +1,15 @@
 /**
- * Measures how long the page takes from the drop of a model, and its memory: `npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]]`. The
- * model is a file, `example`, which is the page's example with 111,600 facets, or a number: a ball of about that many facets.
+ * Measures the time of the page from the drop of a model, and its memory: `npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]]`. The
+ * model is a file, `example` for the page's example with 111,600 facets, or a number for a ball of about that many facets.
  *
- * Each of five rounds, or as many as `--rounds` says, has a browser of its own, so that nothing is kept from the round before; the median
- * counts. On one page the model is only looked at, on the other the print file is downloaded as well, as soon as its plan is there. Somebody
- * takes a while to find a file: the drop is `--after` seconds after the page is there, 2 if it does not say.
+ * Each of five rounds, or as many as given by `--rounds`, uses a new browser, so that no cache remains; the result is the median. On one
+ * page the model is only viewed, on the other its print file is also downloaded, as soon as the plan is ready. The drop is `--after`
+ * seconds after the page has loaded, 2 by default, since users take a while to find a file.
  *
- * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and how many times
- * as much the other takes: the median over the pairs of rounds, so that a machine that becomes slower meanwhile slows down both.
+ * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and the ratio of the
+ * other build to ours: the median over the pairs of rounds, so that a machine that slows down meanwhile affects both.
  *
- * `--directions` measures the search for an orientation instead, `--cancel` how soon calls that are aborted end.
+ * `--directions` measures the orientation search instead, `--cancel` the delay of aborted calls.
  */
 import { readFile, readdir } from "node:fs/promises";
 import { basename, join, resolve } from "node:path";
@@ -26,10 +26,10 @@ import { finer, sphere } from "./solids.js";
 import { resident } from "./usage.js";
 
 const USAGE = "usage: npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS] [--directions | --cancel]";
-/** The longest run that is waited for, on a machine with other work. */
+/** Timeout of a run, for a machine with other work. */
 const PATIENCE_MS = 120_000;
 
-/** What is measured, and how. */
+/** Subject and options of a measurement. */
 interface Measured {
   file: DroppedFile;
   query: string;
@@ -43,12 +43,12 @@ interface Round {
   /** Until the first picture of the model is on the view's canvas. */
   view_ms: number;
   zip_ms: number;
-  /** The most memory that the processes of pages have held; `undefined` where the system does not say. */
+  /** Peak memory of the page processes; undefined if the system does not report it. */
   megabytes: number | undefined;
   timings: string;
 }
 
-/** The figures of a round, by their names. */
+/** Figures of a round, by name. */
 const FIGURES: readonly (readonly [name: string, of: (round: Round) => number | undefined])[] = [
   ["drop to plan, ms", (it) => it.plan_ms],
   ["drop to view, ms", (it) => it.view_ms],
@@ -80,7 +80,7 @@ async function fileOf(model: string): Promise<DroppedFile> {
   return { name: `ball of ${(bytes.length - 84) / 50} facets`, bytes };
 }
 
-/** Measures the built page in each folder, round by round: one, or another build and ours. */
+/** Measures the built page in each folder, in alternate rounds: one build, or another and ours. */
 async function pages(folders: readonly string[], measured: Measured): Promise<void> {
   const served: Served[] = [];
   try {
@@ -89,7 +89,7 @@ async function pages(folders: readonly string[], measured: Measured): Promise<vo
     for (let i = 0; i <= measured.rounds; i++) {
       for (const { address, rounds } of i % 2 === 0 ? builds : builds.toReversed()) {
         const done = await apart(address, measured);
-        // The first round of each warms the system's cache of files.
+        // The first round of each warms the system's file cache.
         if (i > 0) rounds.push(done);
         console.error(`round ${i} of ${measured.rounds}, ${address}: plan ${Math.round(done.plan_ms)} ms, view ${Math.round(done.view_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
       }
@@ -109,7 +109,7 @@ interface Build {
   rounds: readonly Round[];
 }
 
-/** Prints a table of what two builds took. */
+/** Prints a table that compares two builds. */
 async function compare(folders: readonly string[], before: Build, now: Build, { query, file }: Measured): Promise<void> {
   console.log(`${folders[0]} before, ${folders[1]} now\n`);
   console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
@@ -124,7 +124,7 @@ async function compare(folders: readonly string[], before: Build, now: Build, { 
   console.log(pair("loaded before the 3-D view, beside the wasm, gzipped, KB", await loads(before.address + query, file), await loads(now.address + query, file)));
 }
 
-/** A round in a browser of its own, so that its memory is that of one page. */
+/** A round in a new browser, whose memory is then that of one page. */
 async function apart(address: string, measured: Measured): Promise<Round> {
   const browser = await launch(SOFTWARE_GL);
   try {
@@ -139,7 +139,7 @@ async function round(browser: Browser, address: string, { file, query, after_ms 
   const { page } = await open(browser, address + query);
   try {
     await page.waitForTimeout(after_ms);
-    // Records, inside the page and by its own clock, when it reports that it is done.
+    // Records its completion inside the page, by its own clock.
     await page.evaluate(() => {
       const app = document.querySelector("cusp-workbench");
       const root = document.documentElement;
@@ -172,7 +172,7 @@ async function round(browser: Browser, address: string, { file, query, after_ms 
   }
 }
 
-/** Runs before the page's own scripts: records when the plan is shown, and when the view has the first picture of the model. */
+/** Runs before the page's own scripts: records when the plan is shown, and when the view shows the first picture of the model. */
 function watch(facets: number): void {
   const note = (name: string): string => (document.documentElement.dataset[name] ??= String(performance.now()));
   let isDrawn = false;
@@ -196,7 +196,7 @@ function watch(facets: number): void {
   }).observe(document, { subtree: true, attributeFilter: ["state"] });
 }
 
-/** Drops a model and waits for its plan and its picture, which nothing disturbs. */
+/** Drops a model and waits, undisturbed, for its plan and its picture. */
 async function look(browser: Browser, address: string, file: DroppedFile, after_ms: number): Promise<Pick<Round, "plan_ms" | "view_ms">> {
   const context = await browser.newContext(USUAL);
   try {
@@ -213,7 +213,7 @@ async function look(browser: Browser, address: string, file: DroppedFile, after_
   }
 }
 
-/** The gzipped size of each module of a built page, in kilobytes, by its name. */
+/** Gzipped size of each module of a built page, in kilobytes, by name. */
 async function wasmSizes(folder: string): Promise<Map<string, number>> {
   const assets = join(folder, "assets");
   const sizes = new Map<string, number>();
@@ -224,7 +224,7 @@ async function wasmSizes(folder: string): Promise<Map<string, number>> {
   return sizes;
 }
 
-/** What the page loads before its 3-D view, in kilobytes: in another language than English, whose texts come with the rest. */
+/** Download before the 3-D view, in kilobytes, in a language other than English, so as to include its texts. */
 async function loads(address: string, file: DroppedFile): Promise<number> {
   const browser = await launch(SOFTWARE_GPU);
   try {
@@ -234,7 +234,7 @@ async function loads(address: string, file: DroppedFile): Promise<number> {
     await state(page, "empty");
     await drop(page, file);
     await state(page, "done", PATIENCE_MS);
-    // The last of it is the chart.
+    // The chart is loaded last.
     await page.waitForSelector(".u-over");
     return whole(sizes) / 1e3;
   } finally {
@@ -247,7 +247,7 @@ function spread(values: readonly (number | undefined)[]): string {
   return `${sorted[Math.floor(sorted.length / 2)]} (${sorted[0]} to ${sorted.at(-1)})`;
 }
 
-/** The middle value, of those that there are. */
+/** Median of the defined values. */
 function median(values: readonly (number | undefined)[]): number | undefined {
   const sorted = values.filter((it) => it !== undefined).sort((a, b) => a - b);
   return sorted[Math.floor(sorted.length / 2)];
@@ -260,7 +260,7 @@ const ratio = (before?: number, now?: number): number | undefined =>
 
 const pair = (name: string, before?: number, now?: number): string => row(name, before, now, ratio(before, now), 1);
 
-/** Times need no fraction, and memory neither. */
+/** Times and memory need no fraction. */
 function row(name: string, before?: number, now?: number, times?: number, digits = 0): string {
   const figure = (value: number | undefined, digits: number): string => value?.toFixed(digits) ?? "–";
   return `| ${name} | ${figure(before, digits)} | ${figure(now, digits)} | ${figure(times, 2)} |`;

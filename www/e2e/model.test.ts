@@ -1,4 +1,4 @@
-/** The 3-D view in the page: what is drawn follows the model, and the plan follows what is done in the view. */
+/** The 3-D view in the page: the drawing follows the model, and the plan follows actions in the view. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
@@ -8,7 +8,7 @@ import { cup, prism, sphere } from "./solids.js";
 
 const start = pages(SOFTWARE_GL);
 
-/** A view that software draws quickly. */
+/** A view that is quick to draw in software. */
 const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 const block = { name: "block.stl", bytes: prism(12, 8).bytes };
@@ -49,14 +49,14 @@ test("held, the model is previewed as it turns; let go, or turned by keyboard, i
     );
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], false);
   await expect.poll(() => layers(page)).not.toBe(upright);
-  // A preview is not a task: nothing is busy, and no plan was made.
+  // A preview is not a task: the element is not busy, and no plan was made.
   await state(page, "done");
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(false);
   const previewed = await layers(page);
   await tell([Math.SQRT1_2, 0, 0, Math.SQRT1_2], true);
   await settled(page);
   expect(new URL(page.url()).searchParams.has("rotation")).toBe(true);
-  // Planned from the same facets; rays only leave out those that lie inside.
+  // Planned from the same facets; rays only omit facets inside the model.
   expect(Math.abs((await layers(page)) - previewed)).toBeLessThan(0.02 * previewed);
 });
 
@@ -76,7 +76,7 @@ test("beside the chart, heights are where the chart has them", async () => {
       const aligned = panel?.querySelector<HTMLElement>("[role=switch]");
       if (!view || !over || !aligned) throw new Error("there is no view beside a chart");
       const frame = new Promise<{ top_px: number; bottom_px: number }>((resolve) => {
-        // It reports where heights are when it is aligned again.
+        // It reports the positions of heights once aligned again.
         const hear = (event: Event): void => {
           const { detail } = event as CustomEvent<{ top_px: number; bottom_px: number } | null>;
           if (detail === null) return aligned.click();
@@ -114,7 +114,7 @@ test("a copy on the plate is moved by keyboard and by pointer; one that overlaps
 
   await page.getByRole("radio", { name: "Move on the plate" }).click();
   const { x, y, width, height } = (await page.locator("cusp-view canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
-  // Where exactly the ball stands, the camera knows. A press beside it turns the view.
+  // Only the camera knows the ball's exact position. A press next to it turns the view.
   let isMoved = false;
   const parts = [0.25, 0.35, 0.45, 0.55, 0.65];
   for (const [across, down] of parts.flatMap((down) => parts.map((across) => [across, down] as const))) {

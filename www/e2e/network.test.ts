@@ -1,4 +1,4 @@
-/** What the page fetches, when, and what happens where it cannot. */
+/** Fetches of the page, their timing, and failures. */
 import type { Page } from "playwright-core";
 import { expect, inject, test } from "vitest";
 import { broken } from "./axe.js";
@@ -11,7 +11,7 @@ import { tabs, type TabOptions } from "./tabs.js";
 const ball = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 
 const start = pages();
-/** Tabs of the same browser, which {@link start} gives back too. */
+/** Tabs of the same browser, returned to the pool like those of {@link start}. */
 const take = (options: TabOptions = {}): Promise<Page> => tabs().take({ ...USUAL, ...options });
 
 test("loaded once, the page opens and slices without a network", async () => {
@@ -24,7 +24,7 @@ test("loaded once, the page opens and slices without a network", async () => {
   await page.getByLabel(/Choose a file/).setInputFiles({ name: ball.name, mimeType: "", buffer: Buffer.from(ball.bytes) });
   await state(page, "done");
   expect(await layers(page)).toBeGreaterThan(134);
-  // What is fetched when it is shown comes from the cache.
+  // Parts fetched when shown come from the cache.
   await page.waitForSelector("cusp-chart .plot canvas");
   await openPanel(page, "Check");
   await page.waitForSelector("cusp-findings [data-verdict]");
@@ -64,7 +64,7 @@ test("each part that a newer version has replaced says so in one sentence and le
   let gone = /^never$/;
   await page.route(/\/assets\//, (route) => (gone.test(route.request().url()) ? route.fulfill({ status: 404 }) : route.continue()));
   const { complaints } = await visit(page, inject("address"));
-  // The slicer is there, and the view is fetched ahead.
+  // The slicer is loaded, and the view is prefetched.
   await page.waitForLoadState("networkidle");
   const notice = page.locator("#notice");
   const says = async (words: string): Promise<void> => {
@@ -76,7 +76,7 @@ test("each part that a newer version has replaced says so in one sentence and le
   const press = (name: string): Promise<void> => page.getByRole("button", { name, exact: true }).click();
   const goo = { name: "ball.goo", bytes: new Uint8Array(4096) };
 
-  // The reader's code is there, but not its module; then neither.
+  // First only the reader's module is missing, then also its code.
   for (gone of [/cusp_reader|\/worker-/, /\.(js|wasm)/]) {
     await drop(page, goo);
     await says("The reader of print files could not be loaded, so ball.goo is not open. Reload the page");
@@ -106,12 +106,15 @@ test("each part that a newer version has replaced says so in one sentence and le
 
 declare global {
   interface Window {
-    /** What happened, in order. */
+    /** Recorded events, in order. */
     seen: string[];
   }
 }
 
-/** Runs before the page's own scripts: notes calls to workers, the element's states, and when the view wants to draw. By the address it saves data. */
+/**
+ * Runs before the page's own scripts: records calls to workers, the element's states, and the creation of the view's context. `?saves`
+ * reports data saving.
+ */
 function note(): void {
   const seen: string[] = (window.seen = []);
   if (location.search.includes("saves")) Object.defineProperty(navigator, "connection", { value: { saveData: true } });
@@ -119,7 +122,7 @@ function note(): void {
   Worker.prototype.postMessage = function (message: { path?: string[] }, moved?: Transferable[] | StructuredSerializeOptions) {
     const call = message.path?.join(".") ?? "";
     if (call !== "") seen.push(call);
-    // A plan that is never made.
+    // This plan never finishes.
     if (call === "plan" && location.search.includes("hangs")) return;
     postMessage.call(this, message, { transfer: Array.isArray(moved) ? moved : (moved?.transfer ?? []) });
   };
@@ -134,7 +137,7 @@ function note(): void {
   }).observe(document, { subtree: true, attributeFilter: ["state"] });
 }
 
-/** A page that notes what happens, and the names of the scripts that it fetches. */
+/** A page that records its events, and the names of the scripts that it fetches. */
 async function noted(query = ""): Promise<{ page: Page; scripts: string[] }> {
   const page = await take({ before: note });
   const scripts: string[] = [];
@@ -156,7 +159,7 @@ test("an idle page fetches the view and compiles a plan before there is a model;
   expect(order.indexOf("plan")).toBeGreaterThan(order.indexOf("add"));
   expect(order.indexOf("done")).toBeGreaterThan(order.indexOf("plan"));
   expect(order.indexOf("view")).toBeGreaterThan(order.indexOf("done"));
-  // The worker that has read the model gives it to the view: no other reads it again.
+  // The worker that has read the model also serves the view, so the model is read once.
   expect(order.filter((it) => it === "add" || it === "positions" || it === "boot")).toEqual(["boot", "add"]);
 
   const slow = await noted("?hangs");

@@ -1,4 +1,4 @@
-/** The search for the best orientation, as people use it. */
+/** The orientation search, as a user runs it. */
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { binaryStl, exampleTriangles } from "../src/page/example.js";
@@ -58,7 +58,7 @@ function seen(page: Page, side: "Front" | "Back"): Promise<Seen> {
     });
 }
 
-/** A place amid grey on the front: from the middle to the right and upwards, in radii. */
+/** A point on the front within grey: offset from the centre, in radii. */
 function greyAt(page: Page): Promise<readonly [number, number]> {
   return disc(page, "Front")
     .locator("canvas")
@@ -81,7 +81,7 @@ function greyAt(page: Page): Promise<readonly [number, number]> {
     });
 }
 
-/** The middle of a disc, moved by fractions of its radius. */
+/** Centre of a disc, moved by fractions of its radius. */
 async function at(page: Page, side: "Front" | "Back", right: number, up: number): Promise<{ x: number; y: number }> {
   const it = disc(page, side);
   await it.scrollIntoViewIfNeeded();
@@ -113,12 +113,12 @@ test("a search fills the sphere and offers three directions; they are applied by
   expect(await poses.count()).toBe(3);
   const picture = (): Promise<string> => disc(page, "Front").locator("canvas").evaluate((it) => (it as HTMLCanvasElement).toDataURL());
   const unturned = await picture();
-  // The pose now is a card beside them.
+  // The current pose is a card next to them.
   const now = async (): Promise<number> => Number((await panel(page).locator(".now strong").innerText()).replace(/\D/g, ""));
   expect(await now()).toBe(before);
   expect(await poses.nth(0).locator(".differs").innerText()).toBe("Current orientation");
 
-  // The best orientation is the current one, the next one is upside down, and in the third the goblet lies down.
+  // The best orientation is the current one, the next one is upside down, and the third is on its side.
   const third = poses.nth(2);
   await third.click();
   await settled(page);
@@ -134,7 +134,7 @@ test("a search fills the sphere and offers three directions; they are applied by
   await settled(page);
   expect(await layers(page)).toBe(before);
 
-  // By pointing and clicking; its metrics are shown before.
+  // By pointing, which shows its metrics, and clicking.
   const { x, y } = await at(page, "Front", 0.5, -0.3);
   await page.mouse.move(x, y);
   const pointed = Number(await figure(page, "Layers"));
@@ -154,7 +154,7 @@ test("a search fills the sphere and offers three directions; they are applied by
   expect(Math.abs((await layers(page)) - pointed)).toBeLessThanOrEqual(1);
   expect(pointed).not.toBe(before);
 
-  // Again by keyboard, away from the pointer.
+  // Again by keyboard, with the pointer elsewhere.
   await page.mouse.move(0, 0);
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
@@ -177,7 +177,7 @@ test("a search fills the sphere and offers three directions; they are applied by
   await page.getByRole("button", { name: "Undo" }).click();
   await settled(page);
 
-  // What counts may change without measuring again, and settings that matter make it out of date.
+  // The quality can change without new measurements; relevant settings make the search outdated.
   await panel(page).getByLabel("Quality").selectOption("Overhang");
   await expect.poll(picture).not.toBe(unturned);
   await searched(page);
@@ -191,7 +191,7 @@ test("a search fills the sphere and offers three directions; they are applied by
 });
 
 test("directions that do not fit the printer are grey, and say why", async () => {
-  // As large as the printer allows upright: tilted, it is too large.
+  // As high as the printer allows when upright; tilted, it is too large.
   const page = await opened("&printer=mars-4-ultra&height=115");
   await search(page);
   const { grey } = await seen(page, "Front");
@@ -211,7 +211,7 @@ test("a search is cancelled by its button and by Escape, and leaves what it meas
   const find = panel(page).getByRole("button", { name: "Find the best orientation" });
   await find.click();
   await panel(page).getByRole("progressbar").waitFor();
-  // Wait until something is seen.
+  // Waits for the first visible results.
   await expect.poll(async () => (await seen(page, "Front")).clear).toBeLessThan(0.99);
   await panel(page).getByRole("button", { name: "Cancel" }).click();
   await find.waitFor();

@@ -21,10 +21,10 @@ const TRUSTED_TYPES = "require-trusted-types-for 'script'; trusted-types cusp li
 
 let browser: Browser;
 let page: Page;
-/** The package, on an origin that lets others use it. */
+/** The package, on an origin with CORS. */
 let cdn: Served;
 let origin: string;
-/** The same, on an origin that does not, and on one that serves scripts as pages. */
+/** The package on an origin without CORS, and on one that serves scripts as HTML. */
 let closed: Served;
 let mistyped: Served;
 let folder: string;
@@ -58,7 +58,7 @@ afterEach(async () => {
   for (const close of closing.splice(0)) await close();
 });
 
-/** Opens a page of another origin under a policy. Returns what it complains of. */
+/** Opens a page of another origin under a policy. Returns its errors. */
 async function open(path: string, policy: string): Promise<string[]> {
   const shop = await serveFolder(folder, policy, ALLOW_ALL);
   closing.push(() => shop.close());
@@ -93,13 +93,13 @@ test("in a sandboxed frame, to which its own host is another origin", async () =
   expect(complaints).toEqual([]);
 });
 
-/** A classic script, which reads at the end of its address what to load, and loads it from its own origin alone. */
+/** A classic script that reads the script to load from the end of its own URL, and accepts only its own origin. */
 const LIKE_TURBOPACK = `
 const address = decodeURIComponent(location.hash.slice(1));
 if (new URL(address).origin !== location.origin) throw new Error("from another origin");
 importScripts(address);`;
 
-/** Writes the package into a folder as Turbopack builds it: its workers start from such a script. */
+/** Writes the package into a folder as Turbopack builds it, with workers that start from such a script. */
 async function buildLikeTurbopack(built: string): Promise<void> {
   await cp(await builtPackage(), built, { recursive: true });
   await writeFile(join(built, "turbopack.js"), LIKE_TURBOPACK);
@@ -129,7 +129,7 @@ test("a worker starts that reads at the end of its address what to load, as Turb
   expect(complaints).toEqual([]);
 });
 
-/** What a slicer with these assets fails with, twice. */
+/** Errors of a slicer with these assets, for two calls. */
 async function failures(assets: string): Promise<unknown> {
   await page.waitForFunction(() => "api" in window);
   return page.evaluate(async (assets) => {
@@ -141,7 +141,7 @@ async function failures(assets: string): Promise<unknown> {
   }, assets);
 }
 
-/** A worker that was refused, twice: in its place the next call starts another. */
+/** Expected errors of a refused worker, for two calls: the second starts another worker. */
 function refused(system: string): unknown {
   const once = ["worker-failed", { system }];
   return [once, once];

@@ -1,4 +1,4 @@
-/** Third-party pages with the package on them, made of the snippets in docs/embed.md. */
+/** Third-party pages with the package, made from the snippets in docs/embed.md. */
 import { cp, mkdir, mkdtemp, readdir, readFile, rm, symlink, writeFile } from "node:fs/promises";
 import { execFileSync } from "node:child_process";
 import { tmpdir } from "node:os";
@@ -12,16 +12,16 @@ import { sphere } from "./solids.js";
 
 export const www = fileURLToPath(new URL("..", import.meta.url));
 
-/** What pages use besides the package, from the front end's own packages. */
+/** Packages used by the pages besides ours, from the front end's own packages. */
 const BESIDE = ["react", "react-dom", "@types/react", "@types/react-dom", "vue", "svelte", "preact", "solid-js", "csstype"];
 const TOOLS = ["vite", "@vitejs/plugin-vue", "@sveltejs/vite-plugin-svelte", "esbuild"];
 
 export interface Workplace {
-  /** Has nothing but the package in its node_modules. */
+  /** Folder with only the package in its node_modules. */
   readonly bare: string;
-  /** Has the frameworks and bundlers there too. */
+  /** Folder that also has the frameworks and bundlers. */
   readonly folder: string;
-  /** Makes a folder with these files beside the package and the frameworks. */
+  /** Creates a folder with these files, next to the package and the frameworks. */
   app(name: string, files: Readonly<Record<string, string>>): Promise<string>;
   close(): Promise<void>;
 }
@@ -62,7 +62,7 @@ export async function write(folder: string, files: Readonly<Record<string, strin
   }
 }
 
-/** The files and commands that a section of the guide shows: "```jsx src/App.jsx" begins a file, "```sh" commands. */
+/** Files and commands shown in a section of the guide: "```jsx src/App.jsx" begins a file, "```sh" commands. */
 export async function snippets(heading: string): Promise<{ files: Record<string, string>; commands: string[] }> {
   const guide = await readFile(join(www, "../docs/embed.md"), "utf8");
   const files: Record<string, string> = {};
@@ -79,11 +79,14 @@ export async function snippets(heading: string): Promise<{ files: Record<string,
 
 export interface Ran {
   page: Page;
-  /** Properties of `window` that did not exist before the page began. */
+  /** Properties of `window` created by the page. */
   globals: string[];
 }
 
-/** Uses a page as a visitor does: opens a model, sees it in layers, and saves the print file. `look` inspects the result; `others` may be fetched from as well. */
+/**
+ * Uses a page as a visitor does: opens a model, views its layers, and saves the print file. `look` inspects the result; `others` are
+ * further permitted origins.
+ */
 export async function visit(browser: Browser, served: Served, look: (ran: Ran) => Promise<void>, others: readonly string[] = []): Promise<void> {
   const context = await browser.newContext({ locale: "en-GB", viewport: { width: 1280, height: 900 } });
   const page = await context.newPage();
@@ -108,7 +111,7 @@ export async function visit(browser: Browser, served: Served, look: (ran: Ran) =
     await page.locator("cusp-slicer input[type=file]").first().setInputFiles(ball);
     await page.waitForSelector("cusp-slicer[state=done]", { timeout: 30_000 });
     await expect.poll(() => page.evaluate(() => customElements.get("cusp-view") !== undefined), { message: "cusp-view" }).toBe(true);
-    // Its code is there, and says that nothing can be drawn here.
+    // Its code has loaded, and reports that drawing is impossible here.
     await page.locator("cusp-view .unavailable").waitFor();
     const [file] = await Promise.all([
       page.waitForEvent("download"),

@@ -28,13 +28,13 @@ afterAll(async () => {
   await work.close();
 });
 
-/** The page that uses both element and headless API; `module` is the address of its script for a bundler. */
+/** A page that uses both element and headless API; `module` is the URL of its script for a bundler. */
 async function consumer(name: string, module: string): Promise<string> {
   const read = (file: string): Promise<string> => readFile(join(www, "e2e/consumer", file), "utf8");
   return work.app(name, { "index.html": (await read("index.html")).replace("./main.js", module), "src/main.js": await read("main.js") });
 }
 
-/** @param others an origin that the page has its scripts from, in place of its own */
+/** @param others server of the page's scripts, instead of the page's own origin */
 async function works(folder: string, ownGlobals: (name: string) => boolean = () => false, others?: Served): Promise<void> {
   await writeFile(join(folder, "ball.stl"), sphere(10, 96).bytes);
   const policy = others === undefined ? undefined : policyFor(new URL(others.address).origin);
@@ -46,7 +46,7 @@ async function works(folder: string, ownGlobals: (name: string) => boolean = () 
   await visit(browser, await serveFolder(folder, policy), look, others === undefined ? [] : [others.address]);
 }
 
-/** The same for the page of a folder alone, with everything else served from another origin. */
+/** Like `works`, but only the page comes from the folder, and everything else from another origin. */
 async function worksApart(folder: string, others: Served, ownGlobals?: (name: string) => boolean): Promise<void> {
   const html = await readFile(join(folder, "index.html"), "utf8");
   const page = `${folder}-page`;
@@ -55,7 +55,7 @@ async function worksApart(folder: string, others: Served, ownGlobals?: (name: st
   await others.close();
 }
 
-/** Builds an app in a folder of the workplace by its own configuration. Not minified, to save time. */
+/** Builds an app in a folder of the workplace with its own configuration. Not minified, to save time. */
 async function vite(root: string, config: InlineConfig = {}): Promise<string> {
   await build({ logLevel: "error", ...config, root, build: { target: "es2022", minify: false, ...config.build } });
   return join(root, config.build?.outDir ?? "dist");
@@ -65,13 +65,13 @@ const page = (body: string): string => `<!doctype html>
 <html lang="en"><head><meta charset="utf-8" /><script type="module" src="/src/main.js"></script></head>
 <body><div id="root">${body}</div></body></html>`;
 
-/** An app of the guide's component for a framework and of the files around it. */
+/** An app with the guide's component for a framework and further files. */
 async function component(framework: string, use: string, files: Readonly<Record<string, string>> = {}): Promise<string> {
   const [shared, own] = [await snippets("On your page"), await snippets(framework)];
   return work.app(`${framework}-${use}`, { ...shared.files, ...own.files, ...files });
 }
 
-/** Expects the price that the snippets show beside the element. */
+/** Expects the price shown by the snippets. */
 async function priced(served: Served, look: (page: Page) => Promise<void> = async () => undefined): Promise<void> {
   await visit(browser, served, async ({ page }) => {
     await expect.poll(() => page.locator("output").innerText()).toMatch(/^\d+\.\d\d €$/);
@@ -89,7 +89,7 @@ import Slicer from "./Slicer.svelte";
 mount(Slicer, { target: document.querySelector("#root") });`,
 };
 
-/** The errors of a strict compiler, which checks libraries too, in some files; empty if there are none. */
+/** Errors of a strict compiler, which also checks libraries, in some files; empty if there are none. */
 function complaintsOf(cwd: string, files: readonly string[], options: readonly string[] = []): string {
   const strict = ["--ignoreConfig", "--noEmit", "--strict", "--exactOptionalPropertyTypes", "--skipLibCheck", "false"];
   const modern = ["--target", "es2022", "--module", "esnext", "--moduleResolution", "bundler", "--lib", "es2023,dom,dom.iterable"];
@@ -120,7 +120,7 @@ test("built by Vite, with a base on another origin", async () => {
   await worksApart(await vite(root, { base: others.address }), others);
 });
 
-/** A module that counts the element's events on the page, and renders at each. */
+/** A module that counts the element's events on the page, and re-renders at each. */
 const COUNT = `
 export function count(render) {
   const counts = document.body.dataset;
@@ -132,10 +132,10 @@ export function count(render) {
   }
 }`;
 
-/** A framework's page that renders the guide's component anew at each of the element's events. */
+/** A framework's page that re-renders the guide's component at each of the element's events. */
 interface Rendering {
   framework: string;
-  /** Writes a property whose object is new each time. */
+  /** Markup of a property whose object is new at each render. */
   property(name: string, literal: string): string;
   /** Imports of the component. */
   imports?: string;
@@ -227,7 +227,7 @@ test.each(renderings)("rendered by %s at each event, on Vite's development serve
     const code = text.replace("import { quote }", `${imports}\nimport { quote }`);
     return [path, code.replace('printer="saturn-3-ultra"', () => properties)];
   });
-  // The browser asks for an icon, which this server does not have.
+  // Prevents the browser from requesting an icon that this server does not have.
   const index = page("").replace("</head>", `<link rel="icon" href="data:," /></head>`);
   const root = await component(framework, "development", { ...Object.fromEntries(own), "src/count.js": COUNT, "index.html": index });
   const server = await createServer({ root, logLevel: "error", server: { host: "127.0.0.1", port: await freePort() } });
@@ -235,7 +235,7 @@ test.each(renderings)("rendered by %s at each event, on Vite's development serve
   const [address = ""] = server.resolvedUrls?.local ?? [];
   await priced({ address, close: () => server.close() }, async (page) => {
     await page.waitForSelector("body[data-check]");
-    // By then whatever the last render began has ended.
+    // Effects of the last render have ended by then.
     await page.waitForTimeout(500);
     expect(await page.evaluate(() => Object.fromEntries(Object.entries(document.body.dataset)))).toEqual({ plan: "1", price: "1", check: "1" });
   });

@@ -1,4 +1,4 @@
-/** Third-party pages with the package for a test file: one server for all, and no unnoticed errors at the end. */
+/** Third-party pages with the package for a test file: one server for all. Fails on unexpected errors at the end. */
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
 import { servePacked } from "./packed.js";
@@ -6,9 +6,9 @@ import type { Served } from "./serve.js";
 import { tabs } from "./tabs.js";
 
 export interface PackedPages {
-  /** Opens the page with this in its body, once it says by `data-ready` that it is. */
+  /** Opens the page with this body, and waits for its `data-ready`. */
   start(body: string, options?: BrowserContextOptions): Promise<Page>;
-  /** Errors of the pages since they were last taken. A test fails that leaves any. */
+  /** Errors of the pages since last taken. A test that leaves any fails. */
   complaints: string[];
 }
 
@@ -37,7 +37,7 @@ export function packedPages(files: Readonly<Record<string, string | Uint8Array>>
     });
     await page.goto(served.address);
     await page.waitForSelector("body[data-ready]", { state: "attached" });
-    // Through a range, since the policy applies to markup that is written.
+    // Through a range, since the policy also applies to generated markup.
     await page.evaluate((body) => document.body.append(document.createRange().createContextualFragment(body)), body);
     return page;
   };

@@ -1,4 +1,4 @@
-/** A third-party page with the package beside it, served by a plain web server under the element's policy. */
+/** A third-party page with the package, served by a plain web server under the element's policy. */
 import { cp, mkdtemp, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -6,7 +6,7 @@ import { builtPackage } from "./built.js";
 import type { Served } from "./serve.js";
 import { serveFolder } from "./static.js";
 
-/** `files` by name; the package is in `cusp-slicer/`. */
+/** @param files contents by name; the package is in `cusp-slicer/` */
 export async function servePacked(files: Readonly<Record<string, string | Uint8Array>>): Promise<Served> {
   const packed = await builtPackage();
   const folder = await mkdtemp(join(tmpdir(), "cusp-packed-"));
@@ -22,7 +22,7 @@ export async function servePacked(files: Readonly<Record<string, string | Uint8A
   };
 }
 
-/** A page that has the headless slicer as `window.api`, and files by name beside it. */
+/** A page with the headless slicer as `window.api`, and files by name. */
 export function serveApi(files: Readonly<Record<string, string | Uint8Array>>): Promise<Served> {
   return servePacked({
     "index.html": `<!doctype html><meta charset="utf-8" /><script type="module" src="main.js"></script>`,

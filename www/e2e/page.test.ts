@@ -1,4 +1,4 @@
-/** From a file to a print file, in a real browser: opening, refusing, planning, looking, saving. */
+/** From a model to a print file, in a real browser: opening, refusing, planning, viewing, saving. */
 import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { decode } from "fast-png";
@@ -8,7 +8,7 @@ import { download, drop, layers, maskOf, openPanel, state, words } from "./brows
 import { pages } from "./pages.js";
 import { objOf, projectOf, sphere, threeMfOf } from "./solids.js";
 
-/** What the tests read from the manifest. */
+/** The fields of the manifest that the tests read. */
 interface Manifest {
   layers: number;
   mask: { width: number; height: number; pitch_mm: number };
@@ -69,7 +69,7 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(Math.abs(volume / ball.volume_mm3 - 1)).toBeLessThan(0.01);
 });
 
-/** Lit pixels of a one-bit picture, whose rows are padded to whole bytes with dark ones. */
+/** Number of lit pixels of a one-bit picture, whose rows are padded with dark pixels to whole bytes. */
 function litPixels({ data, depth }: ReturnType<typeof decode>): number {
   expect(depth).toBe(1);
   let lit = 0;
@@ -95,13 +95,13 @@ test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: 
   }, [...bytes]);
   await opened("pasted.stl");
   const opening = page.waitForEvent("filechooser");
-  // Playwright asks the browser to be told: its answer must come before the key.
+  // Playwright subscribes to the dialog by a command, which must be answered before the key.
   await page.evaluate(() => undefined);
   await page.keyboard.press("Control+o");
   await (await opening).setFiles({ name: "opened.3mf", mimeType: "", buffer: Buffer.from(threeMfOf(bytes)) });
   await opened("opened.3mf");
   expect(new Set(plans).size).toBe(1);
-  // A project is read plate by plate: on the second, two stand side by side.
+  // A project is read by plate: on the second, two models stand next to each other.
   await drop(page, { name: "project.3mf", bytes: projectOf(bytes) });
   await opened("project.3mf");
   await page.getByLabel("Plate 1 of 2 is read.").selectOption("Plate 2 of 2");
@@ -134,7 +134,7 @@ test("files, links and folders that will not do are refused in words, and the pa
     await drop(page, { name, bytes });
     await expect.poll(() => words(page)).toContain(said);
     await state(page, "error");
-    // The previous model is still there and still responds.
+    // The previous model remains usable.
     expect(await page.locator(".model-name").innerText()).toBe("ball.stl");
     expect(await layers(page)).toBe(count);
   }
@@ -142,7 +142,7 @@ test("files, links and folders that will not do are refused in words, and the pa
   await page.getByRole("button", { name: "Layer below" }).click();
   await alert.getByRole("button", { name: "Close" }).click();
   await state(page, "done");
-  // A model by any other name is a model.
+  // A model is recognised whatever its name.
   await drop(page, { name: "ball", bytes: stl });
   await state(page, "done");
   expect(await page.locator(".model-name").innerText()).toBe("ball");

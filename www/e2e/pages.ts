@@ -1,4 +1,4 @@
-/** Pages for a test file, in tabs that it shares with others, and no unnoticed errors at the end. */
+/** Pages for a test file, in tabs shared with others. Fails on unexpected errors at the end. */
 import type { Page } from "playwright-core";
 import { afterEach, expect, inject } from "vitest";
 import { USUAL, visit, type Opened } from "./browser.js";

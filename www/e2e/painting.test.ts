@@ -1,4 +1,4 @@
-/** Painting weights with real pointer events: the plan follows the weights, and they come back from a file. */
+/** Painting weights with real pointer events: the plan follows the weights, which can be restored from a file. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
@@ -8,11 +8,11 @@ import { sphere } from "./solids.js";
 
 const start = pages(SOFTWARE_GL);
 
-/** A view that software draws quickly. */
+/** A view that is quick to draw in software. */
 const SMALL = { viewport: { width: 1280, height: 500 }, deviceScaleFactor: 0.5 };
 
 const RADIUS = 10;
-/** The usual thickest layer. */
+/** The default maximum thickness. */
 const THICKEST_MM = 0.15;
 const ball = { name: "ball.stl", bytes: sphere(RADIUS, 48).bytes };
 
@@ -40,7 +40,7 @@ const weights = (page: Page): Promise<number[] | null> =>
 
 const brush = (page: Page): Promise<void> => page.getByRole("radio", { name: "What matters" }).click();
 
-/** Where the model is highest on the screen, found by hovering. */
+/** The highest point of the model on the screen, found by hovering. */
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
   const view = page.locator("cusp-view");
   await view.scrollIntoViewIfNeeded();
@@ -61,7 +61,7 @@ async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> 
     return Number.isNaN(z_mm) ? null : z_mm;
   };
   let best = { x, y: 0, z_mm: -1 };
-  // Upward from the middle, where the ball certainly is: every step is reported, and so is leaving the ball.
+  // Upward from the middle, which is on the ball: every step is reported, and so is leaving the ball.
   for (let y = box.y + box.height / 2; y > box.y; y -= 8) {
     const z_mm = await heightAt(y);
     if (z_mm === null || z_mm < best.z_mm - 1) break;
@@ -97,7 +97,7 @@ test("what is painted to matter less is planned thicker there and as before else
   expect(painted.crc32).not.toBeNull();
   expect(painted.z_mm.length).toBeLessThan(before.z_mm.length);
 
-  // Everything painted is up there, so nothing below has changed: neither the profile nor the layers.
+  // All painted facets are above, so below nothing has changed: neither the profile nor the layers.
   const lowest = await page.evaluate(async () => {
     const slicer = document.querySelector("cusp-workbench");
     const [positions, weights] = [await slicer?.slicer.positions(), slicer?.weights];
@@ -112,7 +112,7 @@ test("what is painted to matter less is planned thicker there and as before else
   const bins = Math.floor(lowest / before.bin_mm);
   expect(painted.profile.slice(0, bins)).toEqual(before.profile.slice(0, bins));
   expect(painted.profile.slice(bins)).not.toEqual(before.profile.slice(bins));
-  // Among plans with equally few layers the planner takes any, so planes may still move a little: by less than a layer.
+  // Among plans with the same number of layers the planner may take any, so planes may move by less than a layer.
   for (const [i, z_mm] of before.z_mm.entries()) {
     if (z_mm < lowest) expect(Math.abs((painted.z_mm[i] ?? Infinity) - z_mm)).toBeLessThan(THICKEST_MM);
   }
@@ -135,7 +135,7 @@ test("what is painted to matter less is planned thicker there and as before else
   expect(file.suggestedFilename()).toBe("ball.weights");
   const path = await file.path();
 
-  // A stroke beside the model turns the view and paints nothing.
+  // A stroke off the model turns the view and paints nothing.
   const kept = await weights(page);
   const view = page.locator("cusp-view");
   const seen = await view.screenshot();
@@ -160,7 +160,7 @@ test("what is painted to matter less is planned thicker there and as before else
   expect(reloaded.z_mm).toEqual(painted.z_mm);
   expect(reloaded.crc32).toBe(painted.crc32);
 
-  // Another model has none, and takes none of this one.
+  // A new model has no weights.
   await page.getByRole("button", { name: "Example" }).click();
   await expect.poll(() => weights(page)).toBeNull();
   await state(page, "done");
@@ -172,7 +172,7 @@ test("what is painted to matter less is planned thicker there and as before else
   await page.getByText("ball.weights holds no weights").waitFor();
   expect(await weights(page)).toBeNull();
 
-  // What stands out counts in the plan when that is switched on.
+  // Saliency counts in the plan when switched on.
   await page.getByRole("checkbox", { name: "What stands out matters more" }).check();
   await settled(page);
   expect((await plan(page)).z_mm.length).toBeLessThan(plain.z_mm.length);

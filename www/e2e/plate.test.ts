@@ -26,7 +26,7 @@ test("of files that are dropped together the models stand on one plate, and beco
   await settled(page);
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
   expect(await words(page)).toContain("each");
-  // The curve of quality is the plate's, and what will fail on each model is found.
+  // The trade-off curve is the plate's, and each model has its findings.
   await page.locator("cusp-quality").waitFor();
   await openPanel(page, "Check");
   expect(await page.locator("cusp-findings .verdict").innerText()).toBeTruthy();
@@ -63,7 +63,7 @@ test("copies are typed and stepped, and fill a second plate, which has a print f
   expect(await page.locator("cusp-plate").getByRole("alert").innerText()).toBe("Enter a number, 1 to 1,000.");
   expect(await copies(page, "ball.stl").inputValue()).toBe("many");
   expect(await broken(page)).toEqual([]);
-  // On 153 × 78 mm there is room for 20 balls of 20 mm.
+  // 153 × 78 mm has room for 20 balls of 20 mm.
   await copies(page, "ball.stl").fill("21");
   await copies(page, "ball.stl").press("Enter");
   await page.getByText("Plate 1 of 2").waitFor();
@@ -87,13 +87,13 @@ test("a model is added to the open one, which the page keeps from being closed; 
   await page.locator("cusp-plate").waitFor();
   await state(page, "done");
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
-  // To leave the page would lose how they stand: it asks.
+  // Leaving the page would lose the placements, so it asks.
   const [question] = await Promise.all([page.waitForEvent("dialog"), page.close({ runBeforeUnload: true })]);
   expect(question.type()).toBe("beforeunload");
   await question.dismiss();
   await page.locator("cusp-plate .name", { hasText: "ball.stl" }).click();
   await expect.poll(() => page.locator(".model > .figures").first().innerText()).toMatch(/× 8\.0\smm/);
-  // The height is that of the selected model.
+  // The height field applies to the selected model.
   await page.locator("cusp-plate .name", { hasText: "block.stl" }).click();
   await expect.poll(() => page.locator(".model-name").innerText()).toBe("block.stl");
   await state(page, "done");

@@ -1,4 +1,4 @@
-/** Print files on the page: what they say, their masks, what is wrong with them, and what is no print file. */
+/** Print files on the page: their facts, masks and faults, and files of other kinds. */
 import type { Locator, Page } from "playwright-core";
 import { unzipSync, zipSync } from "fflate";
 import { expect, test } from "vitest";
@@ -11,7 +11,7 @@ const ballFile = { name: "ball.stl", bytes: sphere(10, 48).bytes };
 
 const start = pages();
 
-/** The view of the print file, once it has read it. */
+/** The view of the print file, once read. */
 async function opened(page: Page): Promise<Locator> {
   const view = page.locator("cusp-print");
   await view.locator(".verdict").waitFor();

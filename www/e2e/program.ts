@@ -1,11 +1,11 @@
-/** Finds programs that tests run. */
+/** Finds programs for tests. */
 import { delimiter, join } from "node:path";
 import { isProgram } from "../examples/shop/cusp.js";
 
-/** Folders of programs for administrators, which are not always on PATH. */
+/** Folders of system programs, which are not always on PATH. */
 const FOLDERS = ["/usr/sbin", "/usr/local/sbin"];
 
-/** The program that a variable names, or the first of its usual names that is there; null if there is none. */
+/** Path of the program named by a variable, or the first of its usual names that exists; null if there is none. */
 export function program(names: readonly string[], variable?: string): string | null {
   const named = variable === undefined ? undefined : process.env[variable];
   if (named !== undefined && named !== "") return named;

@@ -1,18 +1,18 @@
-/** Takes the pictures of the README from the built page: `npm run screenshots`. */
+/** Takes the README's pictures from the built page: `npm run screenshots`. */
 import { mkdir, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import type { BrowserContextOptions, Page } from "playwright-core";
 import { downloaded, drop, launch, open, SOFTWARE_GL, openPanel, state } from "./browser.js";
 import { serve } from "./serve.js";
 
-/** Everyone who clones the repository fetches its pictures. */
+/** Maximum size of a picture, since each clone of the repository includes it. */
 const LIMIT_BYTES = 200_000;
 
 interface Shot {
   name: string;
   query?: string;
   options: BrowserContextOptions;
-  /** Takes the picture, if it is not of the page as it is then. */
+  /** Takes the picture, if it is not simply one of the page. */
   take?: (page: Page, path: string) => Promise<unknown>;
 }
 
@@ -28,7 +28,7 @@ async function distances(page: Page, path: string): Promise<void> {
   await page.getByRole("switch", { name: "As printed" }).click();
   await page.getByRole("switch", { name: "Distance from the model" }).click();
   await page.locator("cusp-view .legend .heading", { hasText: "Distance" }).waitFor({ timeout: 180_000 });
-  // Software draws the many steps late.
+  // Software draws the many steps with a delay.
   await page.waitForTimeout(3000);
   await page.locator("cusp-view").screenshot({ path });
 }
@@ -37,7 +37,7 @@ async function distances(page: Page, path: string): Promise<void> {
 async function printFile(page: Page, path: string): Promise<void> {
   await drop(page, { ...(await downloaded(page)), name: "goblet.goo" });
   await page.locator("cusp-print canvas[data-layer]").waitFor();
-  // Software draws the surface late.
+  // Software draws the surface with a delay.
   await page.waitForTimeout(8000);
   await page.screenshot({ path });
 }
@@ -53,7 +53,7 @@ async function mask(page: Page, path: string): Promise<void> {
   await whole(page, path);
 }
 
-/** The page as a workbench, a little smaller than on a screen: no picture may be too large. */
+/** The page as a workbench, slightly smaller than on a screen, to limit the size of the picture. */
 const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.75 };
 
 const SHOTS: readonly Shot[] = [

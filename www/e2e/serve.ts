@@ -1,4 +1,4 @@
-/** Serves the built page on a free port of this machine, for the tests and for the tools beside them. */
+/** Serves the built page on a free port, for the tests and related tools. */
 import { existsSync } from "node:fs";
 import { mkdtemp, rm } from "node:fs/promises";
 import { createServer } from "node:net";
@@ -23,7 +23,7 @@ export interface Served {
   close(): Promise<void>;
 }
 
-/** @param folder of the built page, in place of that of this checkout */
+/** @param folder of the built page; by default that of this checkout */
 export async function serve(folder = join(root, "dist")): Promise<Served> {
   if (!existsSync(join(folder, "index.html"))) {
     throw new Error(`there is no page in ${folder}: run \`npm run build\` first`);
@@ -42,7 +42,7 @@ export async function serve(folder = join(root, "dist")): Promise<Served> {
 export default async function setup(project: TestProject): Promise<() => Promise<void>> {
   const served = await serve();
   const scratch = await mkdtemp(join(tmpdir(), "cusp-e2e-"));
-  // Browsers end with their worker, and leave their profiles behind.
+  // Browsers end with their worker, but leave their profiles behind.
   process.env["TMPDIR"] = scratch;
   project.provide("address", served.address);
   project.provide("scratch", scratch);

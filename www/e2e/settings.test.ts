@@ -1,4 +1,4 @@
-/** Settings as a user changes them: the plan follows, what cannot be is explained, and the address has them. */
+/** Settings as a user changes them: the plan follows, invalid ones are explained, and the URL has them. */
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
@@ -41,7 +41,7 @@ test("settings plan again by themselves, are explained where they make no sense,
 
   await metric.selectOption("Volume deviation");
   await settled(page);
-  // The field shows the tolerance that the core took, in the metric's unit.
+  // The field shows the tolerance chosen by the core, in the metric's unit.
   const tolerance = await field.inputValue();
   expect(await page.locator(".field", { has: field }).locator(".unit").innerText()).toBe("mm³");
   const own = (await page.locator("tr.own").innerText()).replace(/\s+/g, " ");
@@ -104,10 +104,10 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   expect(await problem.innerText()).toContain("The model is too large for this printer");
   await problem.getByRole("button", { name: /^Scale to 80\.\d mm$|^Scale to 81 mm$/ }).click();
   await expect.poll(async () => Number(await page.getByLabel("Scale to height").inputValue())).toBeLessThanOrEqual(81);
-  // A smaller one is planned sooner.
+  // A smaller model is quicker to plan.
   await page.getByLabel("Scale to height").fill("10");
   await settled(page);
-  // Its own file has one thickness for all layers, unlike an adaptive plan.
+  // Its format has one thickness for all layers, unlike an adaptive plan.
   await page.getByRole("button", { name: /Download print file/ }).click();
   await state(page, "error");
   await problem.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ }).click();
@@ -122,7 +122,7 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   await open("solid");
   await state(page, "error");
   expect(await problem.innerText()).toContain("This file does not describe a printer in JSON");
-  // What the core refuses takes the place of nothing.
+  // A refused printer replaces nothing.
   const mine = { model: "Big One", pixels: [2000, 1000], pitch_um: [60, 60], volume_mm: [120, 60, 200], format: "goo", reads: ["goo"] };
   await open(JSON.stringify({ ...mine, step_mm: -1 }));
   await expect.poll(() => problem.innerText()).toContain("The printer big cannot have this step_mm; correct its description.");
@@ -136,7 +136,7 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   await settled(page);
   await list.selectOption("Big One");
   await settled(page);
-  // The address gives the same plan again.
+  // The URL reproduces the plan.
   const again = await opened(new URL(page.url()).search);
   expect(await again.getByLabel("Printer", { exact: true }).locator("option:checked").innerText()).toBe("Big One");
   expect(await layers(again)).toBe(count);
@@ -153,7 +153,7 @@ test("numbers are typed with units, in the language's decimals; the field is tid
   await page.keyboard.press("ArrowLeft");
   await page.keyboard.type("_");
   await page.keyboard.press("Backspace");
-  // The caret stays between the digits, and the text as it was typed.
+  // The caret stays between the digits, and the text as typed.
   await page.keyboard.type("0");
   expect(await field.inputValue()).toBe("505");
   await field.fill("55 µm");
@@ -163,12 +163,12 @@ test("numbers are typed with units, in the language's decimals; the field is tid
   await field.blur();
   expect(await field.inputValue()).toBe("0,055");
 
-  // What cannot be read stays, and says why.
+  // Unreadable input stays, with an explanation.
   await field.fill("1.000");
   await field.blur();
   await expect.poll(() => page.locator("#tolerance-hint").innerText()).toBe("Geben Sie die Zahl ohne Tausendertrennzeichen ein.");
   expect(await field.inputValue()).toBe("1.000");
-  // Whatever changes the setting from elsewhere shows in the field, even while it has the focus.
+  // Changes from elsewhere show in the field, even while it has the focus.
   await field.focus();
   await page.evaluate(() => {
     const element = document.querySelector<CuspWorkbench>("cusp-workbench");
@@ -178,7 +178,7 @@ test("numbers are typed with units, in the language's decimals; the field is tid
 });
 
 test("the page speaks a language by choice or because the browser does, whatever the browser's language is called", async () => {
-  // WebKit's is "C" if LANG is, which is no tag of a language.
+  // WebKit's language is "C" if LANG is, which is not a valid language tag.
   const before = (): void => {
     Object.defineProperties(Navigator.prototype, { language: { get: () => "C" }, languages: { get: () => ["C"] } });
   };

@@ -6,15 +6,15 @@ import type { Good } from "./shop-goods.js";
 import { send, type Answer, type Sent } from "./shop-open.js";
 
 const CUSTOMERS = 10;
-/** Connections are cut within this time after the order is sent: most verifications take longer. */
+/** Connections are cut within this time after the order is sent; most verifications take longer. */
 const CUT_MS = 100;
-/** How long customers wait before they try again. */
+/** Delay before customers try again. */
 const AGAIN_MS = 200;
 
-/** An order as it is sent, and what must become of it. */
+/** An order to send, with the expected outcome. */
 interface Wanted extends Sent {
   good: Good;
-  /** Why it is refused; null if it is taken. */
+  /** Code of the expected refusal; null if it is taken. */
   refusal: string | null;
 }
 
@@ -22,7 +22,7 @@ function wanted(good: Good, refusal: string | null = null, changed: Sent["parts"
   const { plan, model, print } = good.files;
   const files = { plan: file(plan), model: file(model), print: file(print) };
   const parts = { copies: String(good.copies), price_cents: String(good.verified.price.total), ...files, ...changed };
-  // Each from a network of its own, since the shop limits the orders of one.
+  // Each from its own network, since the shop limits orders per network.
   const [a, b] = [0, 0].map(() => randomInt(0x10000).toString(16));
   return { key: randomUUID(), headers: { "x-forwarded-for": `2001:db8:${a}:${b}::1` }, parts, good, refusal };
 }
@@ -31,7 +31,7 @@ function file(content: Uint8Array | string): Blob {
   return new Blob([typeof content === "string" ? content : new Uint8Array(content)], { type: "application/octet-stream" });
 }
 
-/** What dishonest customers would send, by turns. */
+/** Orders of dishonest customers, in turn. */
 function forged(good: Good, other: Good, turn: number): Wanted {
   const { plan, print } = good.files;
   const altered = (by: object): Blob => file(JSON.stringify({ ...(JSON.parse(plan.toString()) as object), ...by }));
@@ -51,11 +51,11 @@ function forged(good: Good, other: Good, turn: number): Wanted {
   return wanted(good, refusal, parts);
 }
 
-/** The customers, and what became of their orders. */
+/** The customers, and the outcomes of their orders. */
 export class Customers {
-  /** What was ordered, and the answer, by the order's key. */
+  /** Order and answer by the order's key. */
   readonly taken = new Map<string, { good: Good; order: Answer }>();
-  /** How often which answer came. */
+  /** Number of times that each answer came. */
   readonly answers: Record<string, number> = {};
   readonly #address: string;
   readonly #goods: readonly Good[];
@@ -68,7 +68,7 @@ export class Customers {
     this.#unprintable = unprintable;
   }
 
-  /** Orders by several customers at once until `isOver`, and until each knows what became of their last order. */
+  /** Sends orders of several customers at once until `isOver`, and until the outcome of each last order is known. */
   async order(isOver: () => boolean): Promise<void> {
     const customer = async (): Promise<void> => {
       while (!isOver()) await this.#orderNext();
@@ -80,7 +80,7 @@ export class Customers {
     const turn = this.#turns++;
     const [good, other] = [0, 1].map((ahead) => this.#goods[(turn + ahead) % this.#goods.length]) as [Good, Good];
     switch (turn % 8) {
-      // The connection breaks while the order is sent, checked or answered; then it is sent again.
+      // The connection breaks while the order is being sent, checked or answered; then it is sent again.
       case 0: {
         const one = wanted(good);
         await this.#send({ ...one, signal: AbortSignal.timeout(turn % CUT_MS) });
@@ -92,7 +92,7 @@ export class Customers {
         await Promise.all([this.#settle(one), this.#settle(one)]);
         return;
       }
-      // An order of long ago is sent again.
+      // An old order is sent again.
       case 2: {
         const [key, before] = [...this.taken][turn % (this.taken.size + 1)] ?? [randomUUID(), { good }];
         return this.#settle({ ...wanted(before.good), key });
@@ -116,7 +116,7 @@ export class Customers {
     }
   }
 
-  /** Sends an order once, and notes the answer; null if none came. */
+  /** Sends an order once, and records the answer; null if none came. */
   async #send(one: Wanted): Promise<Answer | null> {
     const answer = await send(this.#address, one).catch(() => null);
     const name = answer === null ? "none" : (answer.code ?? "taken");
@@ -124,7 +124,7 @@ export class Customers {
     if (answer === null || answer.status >= 500) return answer;
     expect(answer.code ?? null).toBe(one.refusal);
     if (one.refusal !== null) return answer;
-    // Whenever it is sent again, the answer is the first one.
+    // A repeated order has the same answer.
     expect(answer).toEqual(this.taken.get(one.key)?.order ?? answer);
     this.taken.set(one.key, { good: one.good, order: answer });
     return answer;

@@ -1,6 +1,6 @@
 /**
- * Ten customers order at once while what serves them is killed again and again: no order is lost, taken twice or taken unverified.
- * Until each kill had its turn, or for five minutes by `npm run endurance`.
+ * Ten customers order at once while the server and its verifier are killed repeatedly: no order is lost, taken twice or taken unverified.
+ * Runs until each kind of kill has happened, or for five minutes with `npm run endurance`.
  */
 import { mkdir, mkdtemp, readdir, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -19,9 +19,9 @@ import { cup, prism, sealed, sphere } from "./solids.js";
 import { megabytes } from "./usage.js";
 
 const SECONDS = process.env["ENDURANCE"] === undefined ? 0 : 300;
-/** So many orders are taken before each kill. */
+/** Number of orders taken before each kill. */
 const BEFORE_KILL = SECONDS === 0 ? 2 : 5;
-/** After so many orders all that is made once exists. */
+/** After this many orders, everything made only once exists. */
 const WARM_ORDERS = 25;
 
 interface Kill {
@@ -29,7 +29,7 @@ interface Kill {
   signal: "SIGKILL" | "SIGTERM";
 }
 
-/** What is killed in turn. */
+/** Kinds of kills, in turn. */
 const KILLS: readonly [Kill, ...Kill[]] = [
   { what: "cusp", signal: "SIGKILL" },
   { what: "cusp", signal: "SIGTERM" },
@@ -37,7 +37,7 @@ const KILLS: readonly [Kill, ...Kill[]] = [
   { what: "shop", signal: "SIGKILL" },
 ];
 
-/** Kills in turn and starts the server anew, until the time is over and each kill had its turn. Returns how many there were. */
+/** Kills in turn and restarts the server, until the time is over and each kind has happened. Returns the number of kills. */
 async function kill(kills: readonly Kill[], shop: ShopProcess, customers: Customers, isOver: () => boolean): Promise<number> {
   let turn = 0;
   for (; turn < kills.length || !isOver(); turn++) {
@@ -46,7 +46,7 @@ async function kill(kills: readonly Kill[], shop: ShopProcess, customers: Custom
     while (customers.taken.size < before + BEFORE_KILL) await wait(5);
     if (what === "cusp") await shop.endCusp(signal);
     else {
-      // Asked to end, it does so by itself, whatever customers do.
+      // On SIGTERM the server ends by itself, whatever customers do.
       expect(await shop.end(signal)).toBe(signal === "SIGTERM" ? 0 : null);
       await shop.start();
     }
@@ -54,7 +54,7 @@ async function kill(kills: readonly Kill[], shop: ShopProcess, customers: Custom
   return turn;
 }
 
-/** Customers order, while there are kills, for a while. Returns the number of kills. */
+/** Runs customers and kills for a while. Returns the number of kills. */
 async function load(seconds: number, kills: readonly Kill[], shop: ShopProcess, customers: Customers): Promise<number> {
   const end = performance.now() + 1000 * seconds;
   let isDone = false;
@@ -100,7 +100,7 @@ test("orders of ten customers survive kills of the shop and of what it runs", as
   await shop.start();
   const customers = new Customers(shop.address, goods, unprintable);
   const both = await load(SECONDS / 2, KILLS, shop, customers);
-  // A server that lives long. What it runs is killed as before.
+  // A long-lived server, whose verifier is killed as before.
   await shop.end("SIGTERM");
   await shop.start();
   const enough = customers.taken.size + WARM_ORDERS;
@@ -112,7 +112,7 @@ test("orders of ten customers survive kills of the shop and of what it runs", as
   show(customers.taken.size, late);
   console.log(`${both} kills, of the shop and of cusp, then ${ofCusp} of cusp; answers ${JSON.stringify(customers.answers)}`);
 
-  // Each order that was taken is there once, as it was sent, with what the native program says of it.
+  // Each order taken is stored once, as sent, with the native program's result.
   const taken = [...customers.taken.values()].map(({ order }) => order.id ?? "");
   expect((await orders({ folder })).sort()).toEqual(taken.sort());
   for (const { good, order } of customers.taken.values()) {
@@ -127,11 +127,11 @@ test("orders of ten customers survive kills of the shop and of what it runs", as
   }
   await expectNoLeftovers({ folder });
   expect(await readdir(temporary)).toEqual([]);
-  // Some were killed while they verified, some customers found nobody, and some were refused.
+  // Some orders failed by a kill, some met no server, and some were refused.
   for (const answer of ["failed", "none", "plan-refused", "print-refused", "price-differs", "not-printable"]) {
     expect(customers.answers[answer], answer).toBeGreaterThan(0);
   }
-  // A kill fails one order, and nothing else does.
+  // A kill fails one order; nothing else fails any.
   expect(customers.answers["failed"]).toBeLessThanOrEqual(both + ofCusp);
   expect(late.heap).toBeLessThan(1.1 * early.heap);
   expect(late.files).toBeLessThanOrEqual(early.files + 10);

@@ -1,4 +1,4 @@
-/** Orders as a customer's browser would send them, made by the native program. */
+/** Orders as a customer's browser sends them, made by the native program. */
 import { spawnSync } from "node:child_process";
 import { mkdir, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -10,7 +10,7 @@ import { printer, resin } from "./shop-open.js";
 /** The files of an order. */
 export type Files = Readonly<Record<PartName, Buffer>>;
 
-/** What is ordered, and what the native program says of that. */
+/** An order, with the native program's verification. */
 export interface Good {
   files: Files;
   copies: number;

@@ -1,4 +1,4 @@
-/** The order-site example, started for a test: its server in this process, and the files in its folder. */
+/** The example shop, started for a test: its server in this process, and the files in its folder. */
 import { mkdtemp, readdir, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
@@ -17,12 +17,12 @@ export const [resin, printer] = [RESINS[1], PRINTERS[0]].map((it) => {
 export interface OpenShop {
   address: string;
   folder: string;
-  /** Closes it before the test ends. */
+  /** Closes the shop before the test ends. */
   close(): Promise<void>;
 }
 
 export interface Shops {
-  /** A folder of the test's own. */
+  /** Creates a folder for the test. */
   folder(name: string): Promise<string>;
   /** Opens a shop, which closes when the test ends; in a new folder unless one is given. */
   open(cusp: string, limits?: Partial<Limits>, folder?: string): Promise<OpenShop>;
@@ -30,7 +30,7 @@ export interface Shops {
   program(script: string): Promise<string>;
 }
 
-/** @param page makes the folder of the page that is served; the folder it is given is removed in the end */
+/** @param page creates the folder of the page to serve, inside a folder that is removed in the end */
 export function shops(page: (root: string) => Promise<string> = builtShop): Shops {
   let built: string;
   let root: string;
@@ -65,7 +65,7 @@ export function shops(page: (root: string) => Promise<string> = builtShop): Shop
   };
 }
 
-/** What the shop answers: an order, or why it is refused. */
+/** Answer of the shop: an order, or the reason for a refusal. */
 export interface Answer extends Partial<Order> {
   status: number;
   code?: string;
@@ -88,7 +88,7 @@ export async function send(address: string, { key, parts, headers = {}, signal }
   return { status: response.status, ...((await response.json()) as object) };
 }
 
-/** Numbers of the orders that were taken, and of those that wait for a person. */
+/** Numbers of the orders taken, and of those to be reviewed. */
 export async function orders(open: Pick<OpenShop, "folder">): Promise<string[]> {
   return [...(await ordersIn(open, "accepted")), ...(await ordersIn(open, "review"))];
 }
@@ -97,12 +97,12 @@ export function ordersIn({ folder }: Pick<OpenShop, "folder">, state: State): Pr
   return readdir(join(folder, FOLDERS[state]));
 }
 
-/** Uploads that are neither taken nor refused yet. */
+/** Uploads not yet taken or refused. */
 export function incoming({ folder }: Pick<OpenShop, "folder">): Promise<string[]> {
   return readdir(join(folder, "incoming"));
 }
 
-/** Expects that refused and aborted uploads leave nothing behind. */
+/** Expects that refused and aborted uploads leave no files. */
 export async function expectNoLeftovers(open: Pick<OpenShop, "folder">): Promise<void> {
   await expect.poll(() => incoming(open)).toEqual([]);
 }

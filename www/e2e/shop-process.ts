@@ -1,4 +1,4 @@
-/** The example shop's server in a process of its own, to be killed and started again. */
+/** The example shop's server in its own process, to be killed and restarted. */
 import { fork, type ChildProcess } from "node:child_process";
 import { once } from "node:events";
 import { readdir, readFile } from "node:fs/promises";
@@ -7,7 +7,7 @@ import { fileURLToPath } from "node:url";
 
 const WWW = fileURLToPath(new URL("..", import.meta.url));
 
-/** Started again, it listens on the same port. */
+/** After a restart, it listens on the same port. */
 export class ShopProcess {
   readonly address: string;
   readonly #call: readonly string[];
@@ -28,7 +28,7 @@ export class ShopProcess {
     await once(this.#child, "message");
   }
 
-  /** Returns the exit code; null if the process could not end by itself. */
+  /** Sends a signal and returns the exit code; null if the signal killed the process. */
   async end(signal: NodeJS.Signals): Promise<number | null> {
     const child = this.#started();
     child.kill(signal);
@@ -46,7 +46,7 @@ export class ShopProcess {
     }
   }
 
-  /** What is in use while nothing is under way. */
+  /** Resources in use while idle. */
   async usage(): Promise<Usage> {
     const child = this.#started();
     child.send("usage");
@@ -54,7 +54,7 @@ export class ShopProcess {
     return { heap: heapUsed + external, rss, files: (await readdir(`/proc/${child.pid}/fd`)).length };
   }
 
-  /** What the process printed. */
+  /** Output of the process. */
   get said(): string {
     return this.#said;
   }
@@ -66,14 +66,14 @@ export class ShopProcess {
 }
 
 export interface Usage {
-  /** Of objects and buffers, bytes. */
+  /** Memory of objects and buffers, bytes. */
   heap: number;
   rss: number;
-  /** Open files and connections. */
+  /** Number of open files and connections. */
   files: number;
 }
 
-/** Returns true if there was such a process: it may have ended since its number was read. */
+/** Returns true if the process existed: it may have ended since its id was read. */
 function isKilled(pid: number, signal: NodeJS.Signals): boolean {
   try {
     return process.kill(pid, signal);

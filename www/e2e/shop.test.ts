@@ -1,4 +1,4 @@
-/** The order-site example as a customer sees it, in a real browser. */
+/** The example shop as a customer sees it, in a real browser. */
 import { readFile } from "node:fs/promises";
 import { join } from "node:path";
 import type { Page } from "playwright-core";
@@ -19,7 +19,7 @@ const own = tabs();
 
 afterEach(({ task }) => own.giveBack(task.result?.state === "fail"));
 
-/** A test that needs the native program; without the program it is skipped with a message. */
+/** A test that needs the native program, and is skipped with a message without it. */
 function withCusp(name: string, body: (cusp: string) => Promise<void>, timeout_ms?: number): void {
   const run = async (context: TestContext): Promise<void> => {
     if (cusp === null) return context.skip("no native cusp: name it in the variable CUSP, or build it in ../target");
@@ -53,7 +53,7 @@ const small = sphere(4, 24).bytes;
 const ball = sphere(10, 48).bytes;
 
 const press = (page: Page): Promise<void> => page.getByRole("button", { name: "Add to order" }).click();
-/** Totals of the lines on show, in cents. */
+/** Totals of the lines shown, in cents. */
 async function totals(page: Page, list: string): Promise<number[]> {
   const texts = await page.locator(`${list} dd:last-child`).allInnerTexts();
   return texts.map((text) => Math.round(100 * Number(text.replace("€", ""))));
@@ -61,7 +61,7 @@ async function totals(page: Page, list: string): Promise<number[]> {
 
 const alert = (page: Page): Promise<string> => page.locator("#problem:not(:empty)").innerText();
 
-/** Changes what the page sends, as a customer could with the browser's tools. */
+/** Changes the page's form data, as a customer could with the browser's tools. */
 async function cheat(page: Page, change: (form: FormData) => Promise<void> | void): Promise<void> {
   await page.evaluate(`(() => {
     const change = ${change.toString()};
@@ -90,7 +90,7 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   await opened(page, ball);
   expect(await page.locator("#figures").innerText()).toMatch(/^\d+\u00a0min · \d+\.\d ml$/);
   const price = page.locator("#price");
-  // The least that an order costs.
+  // The minimum price of an order.
   expect(await price.innerText()).toBe("€9.00");
 
   await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
@@ -117,14 +117,14 @@ withCusp("a customer sees look, time, resin and price, chooses, and orders", asy
   await expect.poll(() => price.innerText()).toBe(`€${(total_cents / 100).toFixed(2)}`);
   expect(await totals(page, "#parts")).toEqual(amounts);
   await expect.poll(() => page.locator("#verdict p").innerText()).toMatch(/^Printable/);
-  // The element shows the same time in its own words.
+  // The element shows the same time in its own format.
   await expect.poll(() => page.locator("cusp-quality .head").innerText()).toContain(`, ${await page.locator("#time").innerText()}, `);
 
   await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
   await press(page);
   const id = await page.locator(".placed li").getAttribute("data-order");
   expect(await totals(page, ".placed li .lines")).toEqual(amounts);
-  // Turned like this it has findings.
+  // In this pose it has findings.
   expect(await page.locator(".placed li").innerText()).toContain("waiting for a person to look at it");
   expect(await orders(open)).toEqual([id]);
   await expectNoLeftovers(open);
@@ -166,14 +166,14 @@ withCusp("what was changed on the way is refused with the reason beside the butt
   await page.locator(".placed li").waitFor();
   expect(await page.locator(".placed li").getAttribute("data-order")).toBe(taken[0]);
   expect(await orders(open)).toEqual(taken);
-  // Ordering the same again is another order, since the first is known to be taken.
+  // Ordering the same again is another order, since the first is confirmed.
   await press(page);
   await expect.poll(() => page.locator(".placed li").count()).toBe(2);
   expect(await orders(open)).toHaveLength(2);
   await expectNoLeftovers(open);
 });
 
-/** Expects nothing amiss for who cannot see it, and nothing that sticks out, light and wide or dark and narrow. */
+/** Expects no accessibility faults and no overflow, in a wide light and a narrow dark page. */
 async function fits(page: Page): Promise<void> {
   for (const [colorScheme, width] of [["dark", 390], ["light", 1280]] as const) {
     await page.emulateMedia({ colorScheme });
@@ -219,7 +219,7 @@ test("a check that fails is made again with the next choice, which no undo takes
   });
   await page.getByRole("button", { name: "Try our goblet" }).click();
   await expect.poll(() => page.evaluate(() => document.querySelector("cusp-slicer")?.model?.name)).toBe("goblet.stl");
-  // A smaller one is planned sooner.
+  // A smaller model is quicker to plan.
   await load(page, small);
   const verdict = page.locator("#verdict p");
   await expect.poll(() => verdict.innerText()).toMatch(/^This could not be checked here\./);
@@ -228,7 +228,7 @@ test("a check that fails is made again with the next choice, which no undo takes
   await page.getByText("Large", { exact: true }).click();
   await expect.poll(() => verdict.innerText()).toMatch(/^Printable/);
   await expect.poll(() => page.locator("#order").isEnabled()).toBe(true);
-  // What the page's own buttons have chosen no undo takes back.
+  // Undo does not revert choices made by the page's own buttons.
   await page.getByRole("slider", { name: "Quality" }).press("ArrowRight");
   await state(page, "done");
   await page.getByText(resin.name).click();

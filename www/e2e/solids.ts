@@ -1,10 +1,10 @@
-/** Models whose volume is known. Lengths in mm. */
+/** Models of known volume. Lengths in mm. */
 import { strToU8, zipSync } from "fflate";
 import { binaryStl } from "../src/page/example.js";
 
 export interface Solid {
   bytes: Uint8Array;
-  /** Of the mesh itself, not of the surface that it approximates. */
+  /** Volume of the mesh itself, not of the surface that it approximates. */
   volume_mm3: number;
 }
 
@@ -13,7 +13,7 @@ export function sphere(radius: number, around: number): Solid {
   const circles = around / 2;
   const at = (circle: number, turn: number): [number, number, number] => {
     const polar = (Math.PI * circle) / circles;
-    // At the poles every point of the circle is the same, down to the last bit.
+    // At a pole, every point of the circle is the same, down to the last bit.
     const out = circle === 0 || circle === circles ? 0 : radius * Math.sin(polar);
     const angle = (2 * Math.PI * (turn % around)) / around;
     return [out * Math.cos(angle) + 0, out * Math.sin(angle) + 0, radius - radius * Math.cos(polar)];
@@ -38,7 +38,7 @@ export function floating(side: number, gap: number): Uint8Array {
   return binaryStl(Float32Array.from([...below, ...above]));
 }
 
-/** A square cup that stands on its floor: walls and floor are as thick. */
+/** A square cup that stands on its floor; walls and floor have the same thickness. */
 export function cup(side: number, height: number, wall: number): Uint8Array {
   const outside = facetsOf(side, height);
   const inner = side - 2 * wall;
@@ -68,10 +68,10 @@ export function prism(side: number, height: number): Solid {
   return { bytes: binaryStl(packed), volume_mm3: volume(packed) };
 }
 
-/** A cube with a cubic hollow in its middle, which nothing leads to. */
+/** A cube with a closed cubic hollow in its middle. */
 export function sealed(side: number, wall: number): Uint8Array {
   const inner = facetsOf(side - 2 * wall, side - 2 * wall).map((part) => part + wall);
-  // The other way round: each facet's last two corners change places.
+  // Inverted by swapping each facet's last two corners.
   const inward = inner.map((_, i) => inner[i - (i % 9) + ((9 - (i % 9 - (i % 3))) % 9) + (i % 3)] ?? 0);
   return binaryStl(Float32Array.from([...facetsOf(side, side), ...inward]));
 }
@@ -113,7 +113,7 @@ export function volume(triangles: Float32Array): number {
   return six / 6;
 }
 
-/** The corners of the triangles of a binary STL, one line each, without repetition, and the triangles as three places in that list. */
+/** The distinct corners of a binary STL, one line each, and its triangles as indices into that list. */
 function indexed(stl: Uint8Array): { corners: readonly string[]; triangles: readonly (readonly number[])[] } {
   const view = new DataView(stl.buffer, stl.byteOffset);
   const places = new Map<string, number>();
@@ -134,7 +134,7 @@ export function objOf(stl: Uint8Array): Uint8Array {
   return new TextEncoder().encode(`${lines.join("\n")}\n`);
 }
 
-/** The model of an STL as a 3MF: on the first of two plates once, on the second twice. */
+/** The model of an STL as a 3MF project: once on the first of two plates, twice on the second. */
 export function projectOf(stl: Uint8Array): Uint8Array {
   const instance = (id: number): string => `<model_instance><metadata key="object_id" value="1"/><metadata key="instance_id" value="${id}"/></model_instance>`;
   const settings = `<config><plate>${instance(0)}</plate><plate>${instance(1)}${instance(2)}</plate></config>`;

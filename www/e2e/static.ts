@@ -1,18 +1,18 @@
-/** Serves a folder on a free port of this machine, as a plain web server would, under a policy. */
+/** Serves a folder on a free port, like a plain web server, under a policy. */
 import { createReadStream } from "node:fs";
 import { stat } from "node:fs/promises";
 import { createServer } from "node:http";
 import { extname, join, normalize } from "node:path";
 import type { Served } from "./serve.js";
 
-/** What the element needs of a page's policy, and nothing more: see docs/embed.md. */
+/** The minimum policy for the element: see docs/embed.md. */
 export const ELEMENT_POLICY = "default-src 'none'; script-src 'self' 'wasm-unsafe-eval'; worker-src 'self'; connect-src 'self'";
 
-/** The same where the package is on another origin, whose worker starts from a `blob:`. */
+/** Policy for the package on another origin, whose worker starts from a `blob:`. */
 export const policyFor = (origin: string): string =>
   `default-src 'none'; script-src 'self' ${origin} 'wasm-unsafe-eval'; worker-src blob:; connect-src 'self' ${origin}`;
 
-/** Allows other origins to use what is served. */
+/** Headers that allow other origins to use the files. */
 export const ALLOW_ALL = { "access-control-allow-origin": "*" } as const;
 
 const TYPES: Readonly<Record<string, string>> = {
@@ -26,7 +26,7 @@ const TYPES: Readonly<Record<string, string>> = {
 export async function serveFolder(folder: string, policy = ELEMENT_POLICY, headers: Readonly<Record<string, string>> = {}): Promise<Served> {
   const server = createServer((request, response) => {
     const { pathname } = new URL(request.url ?? "/", "http://localhost");
-    // The browser requests it by itself; a page's own icon does not matter here.
+    // Requested by the browser itself; a page's own icon does not matter here.
     if (pathname === "/favicon.ico") return void response.writeHead(204).end();
     const path = join(folder, normalize(decodeURIComponent(pathname.endsWith("/") ? `${pathname}index.html` : pathname)));
     stat(path).then(

@@ -12,7 +12,7 @@ import { floating } from "./solids.js";
 const start = pages();
 const SIDE_MM = 12;
 const GAP_MM = 4;
-/** The upper cube begins in the air, and all of its lower face hangs. */
+/** The upper cube floats, and all of its lower face overhangs. */
 const cubes = { name: "cubes.stl", bytes: floating(SIDE_MM, GAP_MM) };
 const DESKTOP = { viewport: { width: 1280, height: 800 } };
 const PHONE = { viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true };
@@ -55,7 +55,7 @@ interface Manifest {
   layer_files: { z_mm: number; thickness_mm: number; lit_pixels: number }[];
 }
 
-/** Lit pixels of the layer of the print file that has this height in it. */
+/** Lit pixels of the print file's layer at a height. */
 async function litAt(page: Page): Promise<(z_mm: number) => number> {
   const { bytes } = await downloaded(page);
   const { layer_files } = JSON.parse(new TextDecoder().decode(unzipSync(bytes)["manifest.json"])) as Manifest;
@@ -64,7 +64,7 @@ async function litAt(page: Page): Promise<(z_mm: number) => number> {
 
 test("a first-time user goes from step to step, each at its top, and the file has supports and a void; going back loses nothing", async () => {
   const page = await opened(DESKTOP);
-  // Those who only want a file have it: nothing is asked.
+  // Users who only want a file get it without any step.
   expect(await title(page).innerText()).toBe("Slice");
   expect(await said(page, "Slice")).toMatch(/^\d+ layers$/);
   const solid = await litAt(page);
@@ -119,7 +119,7 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   expect(await panel.evaluate((it) => it.scrollTop)).toBe(0);
   await back(page);
   await at(page, "Hollow");
-  // Not even what cannot be read.
+  // Not even unreadable input.
   await page.getByLabel("Hollow, with walls of").fill("thick");
   await expect.poll(() => said(page, "Hollow")).toBe("To be corrected");
   await back(page);
@@ -148,7 +148,7 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
   const tour = page.getByRole("region", { name: "Short tour" });
   await tour.waitFor();
   expect(await broken(page)).toEqual([]);
-  // The focus is for screen readers there: nothing can be done with a name, and a ring would only puzzle.
+  // The focus is there for screen readers only; a ring around a name that cannot be used would be confusing.
   expect(await page.evaluate(() => document.querySelector("cusp-workbench")?.shadowRoot?.activeElement?.textContent)).toBe("goblet.stl");
   expect(await page.locator(".model-name").evaluate((it) => getComputedStyle(it).outlineStyle)).toBe("none");
   await page.getByRole("status").filter({ hasText: /layers planned/ }).waitFor();
@@ -176,7 +176,7 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
   expect(file.suggestedFilename()).toBe("goblet-cusp.zip");
 });
 
-/** Expects all of it in the window. */
+/** Expects the whole element inside the window. */
 async function inside(page: Page, it: Locator): Promise<void> {
   const { width, height } = page.viewportSize() ?? { width: 0, height: 0 };
   const box = (await it.boundingBox()) ?? { x: -1, y: -1, width: 0, height: 0 };
@@ -213,7 +213,7 @@ test("by touch on a phone, from a first visit to the file: cards and tour stay i
     await page.getByRole("button", { name: `Next: ${name}` }).tap();
     await at(page, name);
   }
-  // As a person has it from a data sheet.
+  // As copied from a data sheet.
   await page.getByLabel("Tolerance", { exact: true }).fill("80 µm");
   await settled(page);
   await step(page, "Slice").tap();

@@ -1,11 +1,11 @@
 /**
- * Tabs that tests take and give back. The next test with the same options goes on in the same tab, whose process has
- * compiled the page's scripts and its WebAssembly already: there a page opens and plans in half the time.
+ * A pool of tabs for tests. The next test with the same options reuses the tab, whose process has compiled the page's scripts and
+ * WebAssembly: a page then opens and plans in half the time.
  */
 import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { launch } from "./browser.js";
 
-/** What tests listen to on a page. */
+/** Page events with listeners of tests. */
 const HEARD = ["request", "response", "pageerror", "console", "download"] as const;
 
 export interface TabOptions extends BrowserContextOptions {
@@ -34,7 +34,7 @@ export class Tabs {
     return page;
   }
 
-  /** After each test; after a failed one its tabs are closed, since nobody knows what it left there. */
+  /** Called after each test. After a failed test, closes its tabs, whose state is unknown. */
   async giveBack(hasFailed: boolean): Promise<void> {
     await Promise.all(
       this.#taken.splice(0).map(async ({ page, key, scripts }) => {
@@ -54,7 +54,7 @@ export class Tabs {
 
 const all = new Map<string, Tabs>();
 
-/** The tabs of all test files of this process, whose browser ends with it. */
+/** Tabs shared by all test files of this process, whose browser ends with it. */
 export function tabs(flags?: readonly string[]): Tabs {
   const key = String(flags);
   const those = all.get(key) ?? new Tabs(() => launch(flags));
@@ -62,7 +62,7 @@ export function tabs(flags?: readonly string[]): Tabs {
   return those;
 }
 
-/** Ends the page in a tab, with its workers and all that it stored. */
+/** Ends the page in a tab, with its workers and storage. */
 async function empty(page: Page): Promise<void> {
   for (const other of page.context().pages()) if (other !== page) await other.close();
   for (const event of HEARD) page.removeAllListeners(event);
@@ -75,6 +75,6 @@ async function empty(page: Page): Promise<void> {
   await devtools.detach();
   await page.context().clearCookies();
   await page.context().clearPermissions();
-  // Away from what the next page shows there.
+  // Keeps the pointer away from the next page's content.
   await page.mouse.move(0, 0);
 }

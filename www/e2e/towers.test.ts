@@ -1,4 +1,4 @@
-/** The towers that measure a printer. */
+/** Test towers. */
 import { execFileSync } from "node:child_process";
 import { mkdtemp, readFile, rm } from "node:fs/promises";
 import { tmpdir } from "node:os";
@@ -31,7 +31,7 @@ async function towers(page: Page, within: Locator): Promise<Download> {
 
 const cusp = findCusp();
 
-/** The towers that the command line writes. */
+/** Towers written by the command line. */
 async function written(printer: string): Promise<Buffer> {
   const folder = await mkdtemp(join(tmpdir(), "cusp-towers-"));
   try {

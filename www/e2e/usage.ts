@@ -1,11 +1,11 @@
-/** What a page and its workers hold in memory. */
+/** Memory and resources in use by a page and its workers. */
 import { existsSync } from "node:fs";
 import { readFile } from "node:fs/promises";
 import type { Browser, CDPSession, Page } from "playwright-core";
 import { state } from "./browser.js";
 
 export interface Usage {
-  /** Of the page itself, bytes: objects, and the storage of their arrays. */
+  /** Memory of the page itself, bytes: objects, and the storage of their arrays. */
   heap: number;
   nodes: number;
   listeners: number;
@@ -35,7 +35,7 @@ export function watchContexts(): void {
   } as typeof getContext;
 }
 
-/** Runs at the top of a worker's script: records the memory of what it instantiates. */
+/** Runs at the top of a worker's script: records the memory of each WebAssembly instance. */
 const WATCH_CORE = `self.cores = [];
 for (const name of ["instantiate", "instantiateStreaming"]) {
   const before = WebAssembly[name];
@@ -48,7 +48,7 @@ for (const name of ["instantiate", "instantiateStreaming"]) {
 `;
 
 async function usageOf(page: Page, devtools: CDPSession): Promise<Usage> {
-  // What a first collection frees may have kept more alive.
+  // Objects freed by a first collection may have kept others alive.
   for (let i = 0; i < 3; i++) await devtools.send("HeapProfiler.collectGarbage");
   const { usedSize, backingStorageSize } = await devtools.send("Runtime.getHeapUsage");
   const { metrics } = await devtools.send("Performance.getMetrics");
@@ -68,7 +68,7 @@ async function usageOf(page: Page, devtools: CDPSession): Promise<Usage> {
   };
 }
 
-/** Loads a page anew, before which {@link watchContexts} runs, and returns what tells what is in use there. */
+/** Reloads a page, in which {@link watchContexts} must run first, and returns a function that measures its usage. */
 export async function watchUsage(page: Page): Promise<() => Promise<Usage>> {
   await page.route(/worker-[^/]*\.js$/, async (route) => {
     const answer = await route.fetch();
@@ -81,7 +81,7 @@ export async function watchUsage(page: Page): Promise<() => Promise<Usage>> {
   return () => usageOf(page, devtools);
 }
 
-/** Memory of the browser's processes for pages, their workers included, bytes: what they hold or the most that they have held. Linux alone says. */
+/** Memory of the browser's page processes, including their workers, bytes: current or peak. Linux only. */
 export async function resident(browser: Browser | null, when: "VmRSS" | "VmHWM"): Promise<number | undefined> {
   if (browser === null) return undefined;
   const session = await browser.newBrowserCDPSession();
@@ -97,7 +97,7 @@ export async function resident(browser: Browser | null, when: "VmRSS" | "VmHWM")
   return sum === 0 ? undefined : sum;
 }
 
-/** In one line. */
+/** Usage in one line. */
 export function said(it: Usage): string {
   return (
     `heap ${megabytes(it.heap)} MB, ${it.nodes} nodes, ${it.listeners} listeners, ` +

@@ -1,4 +1,4 @@
-/** Pages with the view alone, for its tests: one build for all, and no unnoticed errors at the end. */
+/** Pages with the view alone, for its tests: one build for all. Fails on unexpected errors at the end. */
 import { decode } from "fast-png";
 import type { Page } from "playwright-core";
 import { afterAll, afterEach, beforeAll, expect } from "vitest";
@@ -32,7 +32,7 @@ export function viewPages(): (options?: TabOptions) => Promise<Page> {
   });
 
   return async (options = {}) => {
-    // Software draws a quarter of the pixels in a third of the time.
+    // In software, a quarter of the pixels takes a third of the time.
     const usual = { ...USUAL, viewport: { width: 432, height: 448 }, deviceScaleFactor: 0.5, reducedMotion: "reduce" } as const;
     const page = await own.take({ ...usual, ...options });
     page.on("pageerror", (error) => complaints.push(error.message));
@@ -47,7 +47,7 @@ export function viewPages(): (options?: TabOptions) => Promise<Page> {
 
 export type Pixel = readonly [r: number, g: number, b: number];
 
-/** The picture of the view, by CSS pixels from its upper left corner. */
+/** Pixels of the view's picture, by CSS pixels from its upper left corner. */
 export async function picture(page: Page): Promise<(x: number, y: number) => Pixel> {
   const { data, width, channels } = decode(await page.locator("cusp-view").screenshot());
   const density = await page.evaluate(() => devicePixelRatio);
@@ -63,7 +63,7 @@ const linear = (channel: number): number => {
   return part <= 0.04045 ? part / 12.92 : ((part + 0.055) / 1.055) ** 2.4;
 };
 
-/** How alike two colours are regardless of how brightly they are lit: 1 is the same. */
+/** Similarity of two colours regardless of brightness: 1 is equal. */
 export function likeness(a: Pixel, b: Pixel): number {
   const [u, v] = [a.map(linear), b.map(linear)];
   const dot = u.reduce((sum, value, i) => sum + value * (v[i] ?? 0), 0);

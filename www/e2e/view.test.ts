@@ -1,4 +1,4 @@
-/** The 3-D view and its panel alone: what they draw, and how they are used. */
+/** The 3-D view and its panel alone: drawing and interaction. */
 import { decode } from "fast-png";
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
@@ -9,10 +9,10 @@ import { drawn, forget, heard, likeness, picture, said, viewPages, type Pixel } 
 
 const start = viewPages();
 
-/** Colours count as the same from this likeness on. */
+/** Minimum likeness of colours that count as equal. */
 const SAME = 0.995;
 
-/** Waits for more frames than a change is drawn in. */
+/** Waits for more frames than a change needs. */
 async function settled(page: Page): Promise<void> {
   for (let i = 0; i < 10; i++) await drawn(page);
 }
@@ -41,7 +41,7 @@ test("layers have the colours of the palette, each at its height, exact to one a
     for (const z of [1, 6, 11.7]) expect(likeness(at(middle, row(z)), thick), `at ${z} mm`).toBeGreaterThan(SAME);
     for (const z of [12.3, 15, 18]) expect(likeness(at(middle, row(z)), thin), `at ${z} mm`).toBeGreaterThan(SAME);
     expect(likeness(thin, thick)).toBeLessThan(SAME);
-    // Beside the cone, where it has grown narrow, there is nothing.
+    // Next to the cone, where it has become narrow, there is only background.
     expect(at(middle + 150, row(19))).toEqual(at(middle - 150, row(19)));
     expect(likeness(at(middle + 150, row(19)), thin)).toBeLessThan(SAME);
   }
@@ -79,7 +79,7 @@ test("layers have the colours of the palette, each at its height, exact to one a
   }
 });
 
-/** Counts what is sent to the GPU. */
+/** Counts uploads to the GPU. */
 const counting = (): void => {
   const counts: Record<string, number> = {};
   Object.assign(window, { counts });
@@ -137,7 +137,7 @@ test("the view says that the GPU was lost, goes on once it is found or when it i
   const alert = page.locator("cusp-view").getByRole("alert");
   await lose();
   await expect.poll(() => alert.innerText()).toContain("The browser has stopped the 3-D view.");
-  // Nothing is found under the pointer, and no promise is left.
+  // Nothing is found under the pointer, and no promise stays pending.
   await page.mouse.move(x, y);
   await page.mouse.click(x, y);
   expect(await broken(page)).toEqual([]);
@@ -207,7 +207,7 @@ test("the view holds no more on the GPU after six models than after two", async 
   await page.evaluate(() => window.harness.show());
   const few = await after(2, 0);
   expect(few).toBeGreaterThan(5);
-  // One or two come and go with what is being drawn; if models leaked, four of them would remain.
+  // One or two come and go with the drawing; with a leak, four would remain.
   expect(Math.abs((await after(4, 2)) - few)).toBeLessThanOrEqual(2);
 });
 
@@ -222,7 +222,7 @@ test("the view shows the whole model at any size until somebody moves it, in the
   const isCut = async (): Promise<boolean> => {
     const { width = 0, height = 0 } = (await page.locator("cusp-view").boundingBox()) ?? {};
     const at = await picture(page);
-    // The model is much darker than what is behind it.
+    // The model is much darker than the background.
     return at(3, height / 2)[0] - at(width / 2, height / 2)[0] < 30;
   };
   await expect.poll(isCut).toBe(false);
@@ -266,7 +266,7 @@ test("the printed look has the steps of the layers, and their distances from the
     return count / perMm;
   };
   const done = async (): Promise<void> => {
-    // The steps begin a moment after a change.
+    // The steps start shortly after a change.
     await page.waitForTimeout(300);
     await page.waitForFunction(() => window.harness.view.building === null && window.harness.view.measuring === null);
     await drawn(page);
@@ -280,7 +280,7 @@ test("the printed look has the steps of the layers, and their distances from the
   await page.evaluate(() => window.harness.set({ look: "distance" }));
   await done();
   const ticks = await page.locator("cusp-view .ticks span").allInnerTexts();
-  // Half a layer's thickness times |n_z|, in µm; the corners of the cone's base are 256.
+  // Half a layer's thickness times |n_z|, in µm; the corners of the cone's base are at 256.
   const largest = Number(ticks.at(-1)?.replace(",", ""));
   expect(ticks[0]).toBe("0");
   expect(Math.abs(largest - 2500 * Math.SQRT1_2)).toBeLessThan(2);
@@ -293,7 +293,7 @@ test("the printed look has the steps of the layers, and their distances from the
   expect(likeness(coloured(...at(2.5)), colourAt("safe", 1))).toBeGreaterThan(0.98);
   expect(likeness(coloured(...at(4.9)), colourAt("safe", 0))).toBeGreaterThan(0.98);
   for (const z of [2.5, 4.9]) expect(likeness(coloured(...at(z)), plain(...at(z)))).toBeLessThan(0.98);
-  // They stay with the steps: nothing is measured again.
+  // Distances are kept with the steps, not measured again.
   await page.evaluate(() => window.harness.set({ look: "printed" }));
   expect((await picture(page))(...at(4.9))).toEqual(plain(...at(4.9)));
   await page.evaluate(() => window.harness.set({ look: "distance" }));
@@ -371,7 +371,7 @@ test("the model is turned by its rings", async () => {
     const { harness } = window;
     harness.show();
     await harness.set({ positions: harness.solids.ball(10, 32), tool: "rotate" });
-    // A host that answers late, with the earlier rotation.
+    // A host that answers late, with an outdated rotation.
     harness.view.addEventListener("cusp-rotate", (event) => {
       if (!event.detail.final) harness.view.rotation = [0, 0, 0, 1];
     });
@@ -468,7 +468,7 @@ test("by keyboard alone the view is turned, zoomed and used", async () => {
   expect(await said(page)).toMatch(/ mm, 2 layers$/);
 });
 
-/** Scrolls back to the top. Scrolling continues for a moment after a wheel or a finger. */
+/** Scrolls back to the top. Scrolling continues briefly after a wheel or touch gesture. */
 async function atTop(page: Page): Promise<void> {
   const moved = (): Promise<number> =>
     page.evaluate(async () => {
@@ -543,14 +543,14 @@ interface Wanted {
   locale?: string;
   hasPlot?: boolean;
   style?: Record<string, string>;
-  /** Corners around the model: from 316 on it is a large one. */
+  /** Corners around the model; from 316 on, it counts as large. */
   around?: number;
   layer_mm?: number;
 }
 
-/** A window with room for a plot beside the view. */
+/** A window with room for a plot next to the view. */
 const WIDE = { viewport: { width: 640, height: 640 } };
-/** A panel that software draws quickly. */
+/** A panel that is quick to draw in software. */
 const SMALL = { hasPlot: true, style: { width: "480px" } };
 
 /** Shows the panel with a cone whose sides fall by 45°. */
@@ -616,7 +616,7 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
   await page.keyboard.press("ArrowRight");
   expect(await tool()).toBe("flat");
   expect(await page.getByRole("radio", { checked: true }).count()).toBe(1);
-  // One stop for all modes, one for each switch.
+  // One tab stop for all modes, and one for each switch.
   await page.keyboard.press("Tab");
   for (const name of ["Beside the profile", "As printed", "Distance from the model", "Colour-blind safe"]) {
     const it = page.getByRole("switch", { name });
@@ -634,7 +634,7 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
     page.getByRole("switch", { name }),
   ) as [ReturnType<Page["getByRole"]>, ReturnType<Page["getByRole"]>, ReturnType<Page["getByRole"]>];
   const states = async (): Promise<boolean[]> => Promise.all([printed, measured, aligned].map((it) => it.isChecked()));
-  // Out of the distances, which the keys have switched on.
+  // Leaves the distances, which the keys have switched on.
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
   await measured.click();
@@ -658,14 +658,14 @@ test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all 
   for (const locale of LANGUAGES) {
     await show(page, { locale, hasPlot: true });
     await page.evaluate(() => (window.harness.panel.rotation = [1, 0, 0, 0]));
-    // The widths at which names appear are the tightest.
+    // The widths at which labels appear are the tightest.
     for (const width of [260, 560, 992, 1728]) {
       const found = await page.evaluate(async (width) => {
         const { panel, drawn } = window.harness;
         const frame = document.querySelector<HTMLElement>(".frame");
         const bar = panel.shadowRoot?.querySelector<HTMLElement>(".bar");
         if (!bar || !frame) throw new Error("there is no bar");
-        // The chart at its side takes 8 rem.
+        // The neighbouring chart takes 8 rem.
         frame.style.width = `${width + 128}px`;
         await drawn();
         const targets = [...bar.querySelectorAll<HTMLElement>("label, button")].map((it) => it.getBoundingClientRect());
@@ -715,7 +715,7 @@ test("with the brush the model stays visible in a box 650 high, and all tools ca
     expect(across).toBeGreaterThan(width === 650 ? 350 : width - 1);
     expect(tools).toBeGreaterThan(140);
     expect(lowest).toBeLessThanOrEqual(650);
-    // All tools can be reached.
+    // All tools are reachable.
     await page.getByText("Load weights").scrollIntoViewIfNeeded();
     expect(await page.getByText("Load weights").isVisible()).toBe(true);
     await page.getByRole("radio", { name: "Look around" }).click();
@@ -779,13 +779,13 @@ const printed = (page: Page): Promise<void> => page.getByRole("switch", { name: 
 test("for the printed look the view comes so near that steps can be told apart, and goes back to the chart's side", async () => {
   const page = await start({ ...WIDE, deviceScaleFactor: 1 });
   await show(page, { layer_mm: 0.05, around: 256, hasPlot: true });
-  // What is under the pointer is marked.
+  // Marks the layer under the pointer.
   await page.mouse.move(0, 0);
   await ready(page);
   const before = await canvas(page);
   await printed(page);
   await ready(page);
-  // From afar a layer covers two pixels.
+  // At this distance, a layer covers two pixels.
   const found = await treads(page);
   expect(found.length).toBeGreaterThan(8);
   for (const [i, row] of found.slice(1).entries()) expect(row - (found[i] ?? 0)).toBeGreaterThanOrEqual(6);
@@ -795,13 +795,13 @@ test("for the printed look the view comes so near that steps can be told apart, 
   await expect.poll(async () => (await canvas(page)).equals(before)).toBe(true);
 });
 
-/** Notes what was wrong in each frame that the browser has painted. */
+/** Faults in each frame painted by the browser. */
 interface Noted {
   readonly wrong: string[];
   frames: number;
 }
 
-/** Returns true if the canvas has been cleared, by a new size, since it was drawn on. */
+/** Tracks canvases cleared by a new size and not drawn since, in `window.cleared`. */
 const watchClearing = (): void => {
   const size = Object.getOwnPropertyDescriptor(HTMLCanvasElement.prototype, "width");
   const cleared = new WeakSet<HTMLCanvasElement>();
@@ -825,7 +825,7 @@ const watchClearing = (): void => {
   }
 };
 
-/** Changes the layout a step in each frame, and looks at each frame after it was painted. */
+/** Changes the layout by one step per frame, and checks each frame after it was painted. */
 const through = (page: Page, isLarge = false): Promise<Noted> =>
   page.evaluate(async (isLarge) => {
     const { harness } = window;
@@ -839,7 +839,7 @@ const through = (page: Page, isLarge = false): Promise<Noted> =>
     let rows: Rows = null;
     inner.addEventListener("cusp-frame", ({ detail }) => (rows = detail));
     const noted: Noted = { wrong: [], frames: 0 };
-    // The event tells only changes.
+    // The event reports only changes.
     panel.shadowRoot?.querySelector<HTMLInputElement>("[role=switch]")?.click();
     await harness.drawn();
     panel.shadowRoot?.querySelector<HTMLInputElement>("[role=switch]")?.click();
@@ -851,7 +851,7 @@ const through = (page: Page, isLarge = false): Promise<Noted> =>
       if (cleared.has(canvas)) noted.wrong.push(`${step}: empty`);
       const [wide, high] = [canvas.width / picture.width, canvas.height / picture.height];
       if (Math.abs(wide - high) > 0.01 || Math.abs(wide - devicePixelRatio) > 0.01) noted.wrong.push(`${step}: stretched`);
-      // A picture of a large model comes later; it must not be a wrong one, but it may be the old one.
+      // The picture of a large model comes later; it may be outdated, but not wrong.
       if (isLarge) return;
       if (Math.abs(picture.width - view.width) > 1 || Math.abs(picture.height - view.height) > 1) noted.wrong.push(`${step}: of another size`);
       if (isBeside !== (rows !== null)) noted.wrong.push(`${step}: ${isBeside ? "not " : ""}aligned`);
@@ -907,7 +907,7 @@ test("while the layout changes no frame is empty, stretched, in the wrong projec
   expect((await through(page, true)).wrong).toEqual([]);
 
   await show(page, { hasPlot: true, locale: "de" });
-  // At 450 the plot goes from below to beside.
+  // At 450 the plot moves from below the view to its side.
   for (let width = 435; width <= 465; width++) {
     await page.setViewportSize({ width, height: 640 });
     await drawn(page);

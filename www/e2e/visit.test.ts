@@ -1,4 +1,4 @@
-/** A first visit and the ones after it: what the page remembers, the tour, and the list of keys. */
+/** A first visit and later ones: remembered settings, the tour, and the list of keys. */
 import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
@@ -15,7 +15,7 @@ const cube = { name: "small ball.stl", bytes: sphere(5, 24).bytes };
 const query = (page: Page): Promise<string> => page.evaluate(() => document.querySelector("cusp-workbench")?.query ?? "");
 const isFocused = (locator: Locator): Promise<boolean> => locator.evaluate((it) => (it.getRootNode() as ShadowRoot).activeElement === it);
 
-/** The page at another address, with what the browser has kept. */
+/** Opens another URL of the page, with the browser's stored data. */
 async function visitAgain(page: Page, address = "."): Promise<void> {
   await page.goto(new URL(address, page.url().replace(/\?.*$/, "")).href);
   await state(page, "empty");
@@ -112,12 +112,12 @@ test("settings are saved, applied, renamed and deleted by keyboard, saved as a f
   const shown = panel.getByLabel("Copy this link");
   await expect.poll(() => isFocused(shown)).toBe(true);
   expect(await shown.inputValue()).toBe(link);
-  // The panel speaks the page's language, also when that changes.
+  // The panel uses the page's language, and follows its changes.
   await page.getByLabel("Language").selectOption("de");
   await panel.getByRole("button", { name: "Link zu diesen Einstellungen kopieren" }).waitFor();
 });
 
-/** The files that the page keeps, without their pictures: nothing is drawn here. */
+/** Files kept by the page, without their pictures, which need drawing. */
 const kept = (page: Page): Promise<string[]> =>
   page.evaluate(async () => {
     const root = await navigator.storage.getDirectory();
@@ -135,18 +135,18 @@ test("models are kept if the person allows it, opened again by keyboard, and del
   await state(page, "done");
   expect(await kept(page)).toEqual([]);
   await button.click();
-  // From now on, and the open one.
+  // Keeps the open model and all later ones.
   await panel.getByRole("checkbox", { name: "Keep models in this browser" }).check();
   await expect.poll(() => kept(page)).toEqual(["index.json", "model"]);
   await drop(page, cube);
   await expect.poll(() => kept(page)).toEqual(["index.json", "model", "model"]);
   await state(page, "done");
 
-  // A page without a model begins with them.
+  // A page without a model starts with the recent ones.
   await visitAgain(page, "?rays=512");
   await page.locator(".recent cusp-recent").getByRole("button", { name: /^small ball\.stl/ }).waitFor();
   expect(await broken(page), "without a model").toEqual([]);
-  // The example is no file of the person's.
+  // The example is not a file of the user.
   await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   await button.focus();

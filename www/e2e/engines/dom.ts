@@ -1,8 +1,8 @@
-/** How functions in the page find what people see there. */
+/** Queries, run in the page, for visible content. */
 export interface Dom {
-  /** The elements on show that match, under all shadow roots. */
+  /** Visible elements that match, under all shadow roots. */
   all(css: string): HTMLElement[];
-  /** The first of them with a name that matches, as screen readers say it. */
+  /** The first of them whose accessible name matches. */
   named(css: string, name: string): HTMLElement | undefined;
 }
 

@@ -1,4 +1,4 @@
-/** Firefox by WebDriver BiDi, which it speaks itself. */
+/** Firefox through WebDriver BiDi, which it supports natively. */
 import { mkdir, writeFile } from "node:fs/promises";
 import { createRequire } from "node:module";
 import { join } from "node:path";
@@ -12,7 +12,7 @@ import { program } from "../program.js";
 import { said, xvfb } from "./programs.js";
 import { awaited, sourceOf, type Engine } from "./session.js";
 
-/** The module is this class, though its types say that it has it. */
+/** The module exports this class itself, unlike its types. */
 const Connection = createRequire(import.meta.url)("selenium-webdriver/bidi/index.js") as typeof Index;
 
 const firefox = (): string | null => program(["firefox-esr", "firefox"], "FIREFOX");
@@ -24,10 +24,10 @@ const preferences = (proxy: number, downloads: string) => ({
   "network.proxy.ssl": "127.0.0.1",
   "network.proxy.ssl_port": proxy,
   "network.proxy.no_proxies_on": "127.0.0.1",
-  // The protocol's own command for this is younger than some releases with long support.
+  // The protocol's own command is not in older long-term releases.
   "browser.download.folderList": 2,
   "browser.download.dir": downloads,
-  // In software too.
+  // Also in software.
   "webgl.force-enabled": true,
   "intl.accept_languages": "en-GB",
 });
@@ -40,7 +40,7 @@ export const FIREFOX: Engine = {
     return xvfb() === null ? "no Xvfb on PATH" : null;
   },
 
-  // For settings, blocked add-ons and the state of the network.
+  // Requests for settings, blocked add-ons and the network state.
   asks: (host) => /(^|\.)(mozilla\.(com|net|org)|firefox\.com)$/.test(host),
 
   async start(folder, programs, proxy) {
@@ -52,7 +52,7 @@ export const FIREFOX: Engine = {
     const child = programs.start(firefox() ?? "firefox", ["--remote-debugging-port=0", "--profile", profile], env);
     const address = `${await said(child, child.stderr, /WebDriver BiDi listening on (\S+)/)}/session`;
     const connection = new Connection(address);
-    // The parts of the protocol ask a driver for its connection.
+    // The protocol classes obtain their connection from a driver.
     const driver = { getCapabilities: () => new Map([["webSocketUrl", address]]), getBidi: () => connection };
     await (await Sessions.create(driver)).new({ capabilities: {} });
     const complaints: string[] = [];

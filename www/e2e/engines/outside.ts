@@ -1,6 +1,6 @@
 /**
- * What lies beyond this machine, as a browser sees it: a proxy that answers nothing and remembers what it was asked for. Asked without a
- * proxy, it is a server on this machine, whose page asks `another.test` for a picture.
+ * Stands for all other hosts: a proxy that refuses every request and records its host. Requested directly, it serves a page that loads a
+ * picture from `another.test`.
  */
 import { createServer, type Server } from "node:http";
 import { once } from "node:events";
@@ -21,7 +21,7 @@ export class Outside {
       this.#hosts.push(new URL(url).hostname);
       response.writeHead(403, { "content-type": "text/html" }).end("<!doctype html><title>refused</title>");
     });
-    // What asks for an encrypted connection names the host and the port.
+    // A CONNECT request names host and port.
     server.on("connect", ({ url = "" }, socket) => {
       // A browser may hang up without waiting.
       socket.on("error", () => undefined);
@@ -40,7 +40,7 @@ export class Outside {
     return (this.#server.address() as AddressInfo).port;
   }
 
-  /** The hosts that were asked for since this was last asked. */
+  /** Hosts requested since the last call. */
   hosts(): string[] {
     const hosts = this.#hosts;
     this.#hosts = [];

@@ -1,4 +1,4 @@
-/** The main paths over the page, in an engine other than Chromium's. What they give is the same to the last byte. */
+/** The main paths through the page in an engine other than Chromium. Their results are identical to the last byte. */
 import { execFileSync } from "node:child_process";
 import { mkdir, mkdtemp, readFile, writeFile } from "node:fs/promises";
 import { join } from "node:path";
@@ -19,21 +19,21 @@ import { Visitor, type Place } from "./visitor.js";
 
 declare module "vitest" {
   interface TaskMeta {
-    /** Why a test did not run. */
+    /** Reason for skipping a test. */
     reason?: string;
   }
 }
 
 const ball = { name: "ball.stl", bytes: sphere(10, 96).bytes };
-/** Casting many rays takes long enough to be cancelled. */
+/** Casting its rays takes long enough to cancel. */
 const fine = { name: "fine.stl", bytes: sphere(10, 400).bytes };
-/** Its orientations differ, and it has few facets. */
+/** Few facets, and different orientations. */
 const mug = { name: "mug.stl", bytes: cup(20, 30, 2) };
 
-/** Few rays, where nothing depends on them: the engines draw and compute on two cores. */
+/** Few rays where the number does not matter, since engines draw and compute on two cores. */
 const FEW = "?rays=512";
 
-/** What the page says of a plan that stays although its settings do not. */
+/** The page's note on a plan that no longer matches the settings. */
 const KEPT = "This is the last plan that worked";
 
 const cusp = findCusp();
@@ -44,7 +44,7 @@ const ignored = (reason: string): { skip: boolean; meta: { reason: string } } =>
 
 export function paths(engine: Engine): void {
   const reason = engine.lacks();
-  // No native program, no files to compare with.
+  // Without the native program, there are no files to compare.
   const withCusp = reason === null && cusp === null ? ignored("no native cusp: name it in the variable CUSP") : {};
 
   describe(engine.name, reason === null ? {} : ignored(reason), () => {
@@ -53,7 +53,7 @@ export function paths(engine: Engine): void {
     let visitor: Visitor;
     let outside: Outside;
     const programs = new Programs();
-    /** Hosts beyond this machine that the page asked for something. */
+    /** Foreign hosts that the page has requested. */
     const asked = (): string[] => outside.hosts().filter((host) => !engine.asks(host));
 
     beforeAll(async () => {
@@ -115,10 +115,11 @@ export function paths(engine: Engine): void {
     });
 
     test("what leaves this machine is seen, so each test would notice that the page asks another for something", async () => {
-      // A page that leaves for another host by itself makes Firefox 140 hang now and then, and WebKitGTK loads no picture for one of data.
+      // A page that navigates to another host by itself makes Firefox 140 hang occasionally, and WebKitGTK loads no picture for a `data:`
+      // page.
       await session.open(`http://127.0.0.1:${outside.port}/`);
       await vi.waitFor(() => expect(asked()).toContain("another.test"), { timeout: 10_000, interval: 50 });
-      // A browser may ask for an icon of its own accord.
+      // A browser may request an icon by itself.
       await visitor.open(inject("address"));
       await session.complaints();
       asked();
@@ -164,7 +165,7 @@ export function paths(engine: Engine): void {
       await visitor.settled();
       expect(await visitor.layers()).toBe(after);
       await visitor.focus("select", "^Measure errors by");
-      // What is typed within a second is undone together; a busy machine takes longer.
+      // Input within a second is undone together; a busy machine takes longer.
       await expect
         .poll(async () => {
           await visitor.press(Key.CONTROL, "z");
@@ -181,7 +182,7 @@ export function paths(engine: Engine): void {
       await visitor.state("done");
       const count = await visitor.layers();
       for (const by of ["button", "Escape"]) {
-        // In the page itself, so as not to be late.
+        // In the page itself, to avoid delay.
         await session.call((_, by) => {
           const root = document.querySelector("cusp-workbench")?.shadowRoot;
           if (!root) throw new Error("there is no page");
@@ -220,7 +221,7 @@ export function paths(engine: Engine): void {
       const told = execFileSync(cusp ?? "cusp", ["orient", "--json", join(folder, mug.name)], { encoding: "utf8" });
       const found = await best();
       expect(found.length).toBeGreaterThan(1);
-      // In JSON there are no negative zeros.
+      // JSON has no negative zeros.
       const plain = (JSON.parse(told) as { best: Posed[] }).best.map(({ rotation, energy, metrics }) => ({ rotation: rotation.map((it) => it + 0), energy, metrics }));
       expect(found).toEqual(plain.slice(0, found.length));
       await visitor.click("button.pose", "Orientation 3:");
@@ -243,7 +244,7 @@ export function paths(engine: Engine): void {
       await visitor.set("^Size", "95");
       const middle = await visitor.middle("cusp-view");
       const [left, right] = [-6, 6].map((by) => ({ ...middle, x: middle.x + by })) as [Place, Place];
-      // Seen from above, the ball's top is in the middle, and there layers are thin. View and brush are fetched, and do nothing before.
+      // From above, the ball's top is in the middle, with thin layers. View and brush are fetched, and do nothing before.
       await expect
         .poll(async () => {
           await visitor.focus(".scene", "");
@@ -255,7 +256,7 @@ export function paths(engine: Engine): void {
         .toBeLessThan(before.z_mm.length);
       const { name, bytes } = await visitor.download("^Save weights$");
       expect(name).toBe("ball.weights");
-      // A plan of a stroke before may have ended the wait above.
+      // The plan of an earlier stroke may have ended the wait above.
       const facets = (ball.bytes.length - 84) / 50;
       await expect.poll(async () => (await plan()).crc32).toBe(crc32(bytes.subarray(-4 * facets)));
       const painted = await plan();
@@ -284,7 +285,7 @@ export function paths(engine: Engine): void {
       await visitor.state("done");
       for (const code of LANGUAGES) {
         await fetchLanguage(code);
-        // What the list is called depends on the language, but nothing else has languages to choose from.
+        // The list's label depends on the language, but no other list offers languages.
         await visitor.set("English.*Deutsch|Language|Sprache|Idioma|Langue|语言", code);
         await expect.poll(() => visitor.words()).toContain(languageOf(code).texts.plan.download);
         expect(await session.call(() => document.documentElement.lang.slice(0, 2))).toBe(code);

@@ -1,4 +1,4 @@
-/** Programs that a browser runs as, and beside it; all of them end with the tests. */
+/** Processes of a browser and its helpers; all of them end with the tests. */
 import { spawn, type ChildProcess } from "node:child_process";
 import type { Readable } from "node:stream";
 import { program } from "../program.js";
@@ -9,21 +9,21 @@ export class Programs {
   readonly #children: ChildProcess[] = [];
 
   constructor() {
-    // Where the tests are cut off.
+    // If the tests are interrupted.
     process.once("exit", () => this.#kill());
   }
 
-  /** Starts a program in a process group of its own, since what it starts shall end with it. */
+  /** Starts a program in its own process group, so that its child processes end with it. */
   start(path: string, args: readonly string[], env: Record<string, string | undefined> = {}): ChildProcess {
     const child = spawn(path, args, { env: { ...process.env, ...env }, stdio: ["ignore", "pipe", "pipe"], detached: true });
-    // A pipe that nobody reads fills up, and its program waits.
+    // An unread pipe fills up and blocks its program.
     child.stdout.resume();
     child.stderr.resume();
     this.#children.push(child);
     return child;
   }
 
-  /** A screen in memory, by its name: without one, WebKitGTK does not start, and Firefox has no WebGL. */
+  /** Starts a virtual screen and returns its name: without one, WebKitGTK does not start, and Firefox has no WebGL. */
   async screen(): Promise<string> {
     const child = this.start(xvfb() ?? "Xvfb", ["-displayfd", "1", "-screen", "0", "1400x1000x24", "-nolisten", "tcp"]);
     return `:${await said(child, child.stdout, /^(\d+)\n/)}`;
@@ -42,7 +42,7 @@ export class Programs {
 
 const isAlive = ({ pid, exitCode, signalCode }: ChildProcess): boolean => pid !== undefined && exitCode === null && signalCode === null;
 
-/** What the first group matches in what a program says. */
+/** First group of a match in a program's output. */
 export function said(child: ChildProcess, stream: Readable | null, wanted: RegExp): Promise<string> {
   return new Promise((resolve, reject) => {
     let text = "";

@@ -1,4 +1,4 @@
-/** What a visitor does on the page, in any engine. */
+/** Actions of a visitor on the page, in any engine. */
 import { readdir, readFile, rm } from "node:fs/promises";
 import { join } from "node:path";
 import { Key } from "selenium-webdriver";
@@ -14,7 +14,7 @@ const until = <R>(find: () => Promise<R>): Promise<NonNullable<R>> => vi.waitUnt
 const down = (value: string) => ({ type: "keyDown", value }) as const;
 const up = (value: string) => ({ type: "keyUp", value }) as const;
 
-/** A place in the window, in pixels. */
+/** A position in the window, in pixels. */
 export interface Place {
   x: number;
   y: number;
@@ -23,7 +23,7 @@ export interface Place {
 export class Visitor {
   constructor(readonly session: Session) {}
 
-  /** Opens the page as on a second visit: the tour of the first would stand in front of everything. */
+  /** Opens the page as on a second visit, since the tour of the first would cover everything. */
   async open(address: string): Promise<void> {
     await this.session.open(address);
     await this.session.call(() => localStorage.setItem("cusp.tour", "shown"));
@@ -34,14 +34,14 @@ export class Visitor {
     await until(() => this.session.call((_, wanted) => wanted.includes(document.querySelector("cusp-workbench")?.getAttribute("state") ?? ""), wanted));
   }
 
-  /** Waits, after a change of settings, until the plan on show matches them. */
+  /** Waits, after a change of settings, until the plan shown matches them. */
   async settled(): Promise<void> {
     // A change makes the element busy before the next frame.
     await this.session.call(() => new Promise<void>((resolve) => requestAnimationFrame(() => resolve())));
     await this.state("done");
   }
 
-  /** Drops a file as a file manager would. */
+  /** Drops a file, like a file manager. */
   async drop({ name, bytes }: DroppedFile): Promise<void> {
     await this.session.call(
       (_, name, base64) => {
@@ -56,7 +56,7 @@ export class Visitor {
     );
   }
 
-  /** Waits until the first element with such a name is there and can be clicked, and clicks it. */
+  /** Clicks the first element with a matching name, once present and clickable. */
   async click(css: string, name: string): Promise<void> {
     const place = await until(() =>
       this.session.call(
@@ -83,7 +83,7 @@ export class Visitor {
     await this.session.act({ type: "pointer", id: "mouse", actions });
   }
 
-  /** Presses keys, each while those before it that modify others are held. */
+  /** Presses keys while holding preceding modifiers. */
   async press(...keys: string[]): Promise<void> {
     await this.#keys([...keys.map(down), ...keys.toReversed().map(up)]);
   }
@@ -106,14 +106,14 @@ export class Visitor {
     );
   }
 
-  /** Types into a field, in place of what it has. */
+  /** Replaces the text of a field by typing. */
   async type(name: string, text: string): Promise<void> {
     await this.focus("input", name);
     await this.press(Key.CONTROL, "a");
     await this.#keys(Array.from(text).flatMap((letter) => [down(letter), up(letter)]));
   }
 
-  /** Chooses in a list, whose items are the system's and out of reach, or moves a slider. */
+  /** Selects from a list, whose native items cannot be clicked, or moves a slider. */
   async set(name: string, value: string): Promise<void> {
     await until(() =>
       this.session.call(
@@ -134,7 +134,7 @@ export class Visitor {
     return until(() => this.session.call((dom, name) => (dom.named("input, select", name) as HTMLInputElement | undefined)?.value ?? null, name));
   }
 
-  /** The words of the page, with every run of white space as one space. */
+  /** The page's text with white space normalised. */
   words(): Promise<string> {
     return this.session.call((dom) => dom.all(".bench").map((it) => it.innerText).join(" ").replace(/\s+/g, " "));
   }
@@ -143,12 +143,12 @@ export class Visitor {
     return this.session.call((dom) => Number(dom.all("[data-layers]")[0]?.dataset["layers"]));
   }
 
-  /** Waits until the mask on show is that of this layer, counted from 0. */
+  /** Waits until the mask of this layer is shown, counted from 0. */
   async mask(layer: number): Promise<void> {
     await until(() => this.session.call((dom, css) => dom.all(css).length > 0, `canvas[data-layer="${layer}"]`));
   }
 
-  /** The middle of an element, in the window. */
+  /** Centre of an element, in the window. */
   middle(css: string): Promise<Place> {
     return until(() =>
       this.session.call((dom, css) => {
@@ -161,12 +161,12 @@ export class Visitor {
     );
   }
 
-  /** Clicks what saves a file, and waits for the file. */
+  /** Clicks the control that saves a file, and waits for the file. */
   async download(name: string): Promise<{ name: string; bytes: Buffer }> {
     const { downloads } = this.session;
     for (const old of await readdir(downloads)) await rm(join(downloads, old));
     await this.click("button", name);
-    // Until it is whole, it has another name beside it (Firefox) or in its place (WebKit).
+    // An incomplete download has an additional file (Firefox) or another name (WebKit).
     return until(async () => {
       const [name, ...others] = await readdir(downloads);
       if (name === undefined || others.length > 0 || /\.(part|wkdownload)$/.test(name)) return null;

@@ -1,4 +1,4 @@
-/** WebKitGTK by classic WebDriver, in the small browser that comes with the library. */
+/** WebKitGTK through classic WebDriver, in the mini browser that comes with the library. */
 import { mkdir, writeFile } from "node:fs/promises";
 import { join } from "node:path";
 import { setTimeout as wait } from "node:timers/promises";
@@ -36,7 +36,7 @@ export const WEBKIT: Engine = {
       XDG_CONFIG_HOME: config,
       DISPLAY: await programs.screen(),
       WAYLAND_DISPLAY: undefined,
-      // Then the language of the browser is "C", which is no tag of a language.
+      // The browser's language is then "C", which is not a valid language tag.
       LANG: "C",
       LC_ALL: undefined,
     };
@@ -68,7 +68,7 @@ export const WEBKIT: Engine = {
       async open(url) {
         await collect();
         await tab.get(url);
-        // WebKit's driver says nothing of errors, so the page listens to its own, from here on.
+        // WebKit's driver does not report errors, so the page records its own from here on.
         await tab.executeScript(`(${String(listen)})()`);
       },
       async call(body, ...args) {

@@ -1,4 +1,4 @@
-/** A page with only the view, or its panel beside a plot, which tests control through `window.harness`. */
+/** A page with only the view, or its panel with a plot next to it, controlled by tests through `window.harness`. */
 import type { Model, Slicer } from "../../src/api/index.js";
 import { CuspModel } from "../../src/element/panels/model-view.js";
 import { languageOf } from "../../src/texts/index.js";
@@ -21,7 +21,7 @@ for (const type of TYPES) {
 
 customElements.define("cusp-model", CuspModel);
 const panel = document.createElement("cusp-model");
-/** What a chart tells of its plot. */
+/** Stands for a chart's plot. */
 const plot = document.createElement("div");
 plot.className = "plot";
 
@@ -42,13 +42,13 @@ const harness = {
   get inner(): CuspView | null {
     return panel.shadowRoot?.querySelector("cusp-view") ?? null;
   },
-  /** Shows the panel, in a frame as wide and high as `style` says, with a plot at its side. */
+  /** Shows the panel in a frame sized by `style`, with a plot at its side. */
   async showPanel({ positions, z_mm, locale = "en", hasPlot = false, style = {} }: PanelOptions): Promise<void> {
     const thickness_mm = z_mm.slice(1).map((z, layer) => z - (z_mm[layer] ?? 0));
     const limits = [Math.min(...thickness_mm), Math.max(...thickness_mm)] as const;
     const profile = new Float32Array(0);
     Object.assign(panel, {
-      // What the panel asks of them.
+      // Only the fields that the panel uses.
       model: { info: { size_mm: [20, 20, 20] } } as unknown as Model,
       slicer: { positions: () => Promise.resolve(positions), preview: () => Promise.resolve({}) } as unknown as Slicer,
       shown: { metric: "cusp", profile, bin_mm: 0.002, z_mm, thickness_mm, limits, layers: thickness_mm.length, print_time_s: 0 },
