@@ -4,8 +4,8 @@ import { anyLanguage } from "./package/any-language.js";
 import { crateParts, noticesOf, npmParts } from "./package/bill.js";
 
 /**
- * The policy that makes "your model never leaves this computer" a promise the browser keeps: scripts, workers and
- * requests only from where the page itself came from. Built pages only, since the development server injects scripts.
+ * Policy with which the browser enforces that a model never leaves the computer: scripts, workers and requests only from the page's own
+ * origin. Applies to built pages only, since the development server injects scripts.
  */
 const POLICY = [
   "default-src 'none'",
@@ -28,17 +28,17 @@ function contentSecurityPolicy(): Plugin {
   };
 }
 
-/** Styles without comments, and without white space that separates nothing. */
+/** Removes comments and redundant white space from styles. */
 const lean = (styles: string): string =>
   styles
     .replace(/\/\*[^*]*\*\//g, "")
     .replace(/\s+/g, " ")
-    // Not after a value that is filled in: there it may separate two.
+    // Not after an interpolated value, where it may be significant.
     .replace(/([{;:,]|(?<!\$\{[^}]*)}) /g, "$1")
     .replace(/ ([{}])/g, "$1")
     .replace(/;}/g, "}");
 
-/** Leaves out of templates what only readers of the source need: comments in styles, and indentation. */
+/** Removes comments in styles, and indentation, from templates. */
 function leanTemplates(): Plugin {
   return {
     name: "cusp:lean-templates",
@@ -53,12 +53,12 @@ function leanTemplates(): Plugin {
 
 const SERVICE_WORKER = "service-worker";
 
-/** Tells the service worker which files the page is made of. */
+/** Inserts the list of the page's files into the service worker. */
 function offlineFiles(): Plugin {
   return {
     name: "cusp:offline-files",
     apply: "build",
-    // After the page itself is among them.
+    // Runs after the page itself has been added.
     enforce: "post",
     generateBundle(_options, bundle) {
       const files = Object.keys(bundle).filter((name) => name !== `${SERVICE_WORKER}.js`).sort();
@@ -71,7 +71,7 @@ function offlineFiles(): Plugin {
   };
 }
 
-/** Puts the licences of what is bundled beside the page. Added last: nobody needs them without a network. */
+/** Adds the licences of bundled code to the page. Added last, since they are not needed offline. */
 function notices(): Plugin {
   return {
     name: "cusp:notices",
@@ -87,19 +87,19 @@ function notices(): Plugin {
 }
 
 export default defineConfig({
-  // Relative addresses, so that the folder works under any path of any host.
+  // Relative URLs, so that the folder works under any path of any host.
   base: "./",
   plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), notices(), anyLanguage],
-  // What the development server bundles beforehand passes by the plugin.
+  // Prebundling by the development server would bypass the plugin.
   optimizeDeps: { exclude: ["uplot"] },
   worker: { format: "es" },
   build: {
     target: "es2022",
     assetsInlineLimit: 0,
     modulePreload: {
-      // Browsers that do not know what is preloaded fetch it a little later; a script for them would be fetched by all.
+      // Browsers without preloading fetch files a little later; all browsers would fetch a polyfill.
       polyfill: false,
-      // What a part of the page imports is there by then, but for what the view does, and that is fetched ahead.
+      // Imports of later parts have loaded by then, except those of the view, which is prefetched.
       resolveDependencies: (_file, needed, { hostType }) => (hostType === "html" ? needed : []),
     },
     reportCompressedSize: true,

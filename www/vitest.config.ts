@@ -4,9 +4,9 @@ import { defineConfig } from "vitest/config";
 const browsers = {
   environment: "node",
   globalSetup: "e2e/serve.ts",
-  // Two browsers at a time: one leaves a quarter of two cores idle, since each test waits for the page and the page for it.
+  // Two browsers at a time: one leaves a quarter of two cores idle, since test and page wait for each other.
   maxWorkers: 2,
-  // Two cores are shared with browsers that draw in software: now and then one misses a moment that it is to be seen in.
+  // Two cores are shared with browsers that draw in software, so a brief state may be missed occasionally.
   retry: 2,
   expect: { poll: { timeout: 20_000 } },
   testTimeout: 60_000,
@@ -15,7 +15,7 @@ const browsers = {
 
 export default defineConfig({
   test: {
-    // All cores: by default vitest leaves one free.
+    // All cores; by default vitest leaves one free.
     maxWorkers: "100%",
     projects: [
       { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },

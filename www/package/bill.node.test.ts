@@ -7,13 +7,13 @@ import { crateParts, linkedCrates, npmParts, packageOf } from "./bill.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 
-/** npm packages that build and test, of which nothing is shipped, with licences that no other package may have. */
+/** npm packages for building and testing, which are not shipped, with licences that no other package may have. */
 const TOOLS: Readonly<Record<string, string>> = {
-  // Tests look for barriers with it.
+  // Used by tests to find accessibility barriers.
   "axe-core": "MPL-2.0",
-  // Vite writes styles with it, a program for each platform.
+  // Used by Vite to write styles; a native program per platform.
   lightningcss: "MPL-2.0",
-  // Data: what browsers can do, and the names of licences.
+  // Data: browser support, and names of licences.
   "caniuse-lite": "CC-BY-4.0",
   "spdx-exceptions": "CC-BY-3.0",
   "spdx-license-ids": "CC0-1.0",
@@ -25,11 +25,11 @@ interface Locked {
   dev?: boolean | undefined;
 }
 
-/** The packages of a lock file whose licence is not allowed. */
+/** Packages of a lock file whose licence is not allowed. */
 function refused(packages: Readonly<Record<string, Locked>>, allowed: readonly string[]): string[] {
   return Object.entries(packages).flatMap(([place, { license = "none", dev }]) => {
     const name = place.replace(/.*node_modules\//, "");
-    // Programs for a platform are packages of their own: `lightningcss-linux-x64-gnu`.
+    // Native programs are separate packages: `lightningcss-linux-x64-gnu`.
     const isTool = dev === true && Object.entries(TOOLS).some(([tool, own]) => license === own && (name === tool || name.startsWith(`${tool}-`)));
     return isTool || isAllowed(license, allowed) ? [] : [`${name}: ${license}`];
   });

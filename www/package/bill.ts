@@ -1,6 +1,6 @@
 /**
- * The npm package's bill of materials, and the notices of what is bundled into it and into the page: crates, which cargo names, and
- * npm packages, which are those of the bundled files.
+ * The npm package's bill of materials, and the notices for code bundled into it and into the page: crates as listed by cargo, and npm
+ * packages of the bundled files.
  */
 import { execFileSync } from "node:child_process";
 import { readdir, readFile } from "node:fs/promises";
@@ -27,7 +27,7 @@ interface Locked {
   dev?: boolean;
 }
 
-/** Something of others that is part of the package. */
+/** A third-party component of the package. */
 export interface Part {
   name: string;
   version: string;
@@ -35,18 +35,18 @@ export interface Part {
   /** The package URL: the registry, the name and the version. */
   purl: string;
   hash?: { alg: string; content: string };
-  /** The package's files that it is in. */
+  /** Files of the package that contain it. */
   files: readonly string[];
   notices: readonly string[];
 }
 
-/** A file that is made of others. */
+/** A bundled file with the modules in it. */
 export interface Bundled {
   fileName: string;
   moduleIds: readonly string[];
 }
 
-/** The npm package that a file belongs to; none if it is our own. */
+/** npm package of a file; undefined for our own files. */
 export function packageOf(file: string): string | undefined {
   return /.*node_modules[\\/]((?:@[^\\/]+[\\/])?[^\\/]+)/.exec(file)?.[1]?.replace("\\", "/");
 }
@@ -58,7 +58,7 @@ export async function npmParts(root: string, chunks: readonly Bundled[]): Promis
   const parts = [...names].sort().map(async (name): Promise<Part> => {
     const { version, license, integrity, dev } = packages[`node_modules/${name}`] ?? {};
     if (version === undefined || license === undefined || integrity === undefined) throw new Error(`the lock file does not describe ${name}`);
-    // Its licence would have been held to the rules for tools.
+    // Its licence would have been checked by the rules for tools.
     if (dev === true) throw new Error(`${name} is bundled, but is a development dependency`);
     const files = chunks.filter(({ moduleIds }) => moduleIds.some((id) => packageOf(id) === name)).map(({ fileName }) => fileName);
     return {
@@ -71,12 +71,12 @@ export async function npmParts(root: string, chunks: readonly Bundled[]): Promis
   return Promise.all(parts);
 }
 
-/** Starts of the names of files that licences ask to pass on. */
+/** Names of files with notices that licences require to be passed on. */
 const NOTICE = /^(licen[cs]e|copying|copyright|notice|unlicense)/i;
-/** Files of the licences that a crate offers beside MIT's. */
+/** Licence files of a crate for alternatives to MIT. */
 const OTHER_LICENCE = /apache|zlib|unlicense|0bsd/i;
 
-/** The texts that whoever ships a package must repeat. Of those of several licences to choose from, MIT's alone. */
+/** Notices that must be repeated by everyone who ships a package. If the licence is a choice that includes MIT, only MIT's. */
 async function notices(folder: string, license: string): Promise<string[]> {
   const entries = await readdir(folder, { withFileTypes: true });
   const all = entries.filter((entry) => entry.isFile() && NOTICE.test(entry.name)).map(({ name }) => name).sort();
@@ -85,7 +85,7 @@ async function notices(folder: string, license: string): Promise<string[]> {
   return Promise.all(names.map(async (name) => (await readFile(join(folder, name), "utf8")).replaceAll("\r", "").trim()));
 }
 
-/** @param files the modules of a package; the page's are all of them */
+/** @param files the modules of a package; by default all, as in the page */
 export async function crateParts(root: string, files: readonly string[] = Object.keys(MODULES)): Promise<Part[]> {
   const cargo = (...given: string[]): string => execFileSync("cargo", given, { cwd: join(root, ".."), encoding: "utf8", maxBuffer: 1 << 26 });
   const linked = new Map(files.map((file) => [file, linkedCrates(cargo(...TREE, ...(MODULES[file] ?? [])))]));
@@ -96,7 +96,7 @@ export async function crateParts(root: string, files: readonly string[] = Object
     if (own.length === 0) return null;
     const checksum = new RegExp(`^name = "${name}"\nversion = "${version.replaceAll(".", "\\.")}"\nsource = .*\nchecksum = "(.*)"`, "m").exec(lock)?.[1];
     if (license === null || checksum === undefined) throw new Error(`cargo knows no licence or no checksum of ${name} ${version}`);
-    // Older manifests write a choice so.
+    // Notation of a choice in older manifests.
     const expression = license.replaceAll("/", " OR ");
     return {
       ...{ name, version, license: expression, files: own },
@@ -113,12 +113,12 @@ export async function crateParts(root: string, files: readonly string[] = Object
 const TARGET = "wasm32-unknown-unknown";
 const TREE = ["tree", "--locked", "--target", TARGET, "--package", "cusp-wasm", "--edges", "normal,no-proc-macro", "--prefix", "none", "--format", "{p}"];
 
-/** Names and versions of the crates of others in the output of `cargo tree`: behind our own are their folders. */
+/** Names and versions of third-party crates in the output of `cargo tree`, where our own are followed by their folders. */
 export function linkedCrates(tree: string): ReadonlySet<string> {
   return new Set(tree.split("\n").flatMap((line) => /^(\S+) v(\S+)(?: \(\*\))?$/.exec(line)?.slice(1).join(" ") ?? []));
 }
 
-/** Rust's own, which comes with the compiler. */
+/** Rust's standard library, which comes with the compiler. */
 function standardLibrary(rustc: string, files: readonly string[]): Part {
   const version = /\d+\.\d+\.\d+/.exec(rustc)?.[0];
   if (version === undefined) throw new Error(`no version in "${rustc}"`);
@@ -126,7 +126,7 @@ function standardLibrary(rustc: string, files: readonly string[]): Part {
   return { name: "rust-std", version, license: "MIT OR Apache-2.0", purl, files, notices: ["Copyright (c) The Rust Project Contributors"] };
 }
 
-/** The bill as CycloneDX writes it. No time and no serial number: the same package has the same bytes. */
+/** The bill in CycloneDX. Without time and serial number, so that the same package has the same bytes. */
 export function bill(own: { name: string; version: string; license: string }, parts: readonly Part[]): string {
   const component = ({ name, version, license, purl, hash, files }: Part): object => ({
     ...{ type: "library", name, version, purl },
@@ -139,7 +139,7 @@ export function bill(own: { name: string; version: string; license: string }, pa
   return JSON.stringify({ bomFormat: "CycloneDX", specVersion: "1.6", version: 1, metadata, components: parts.map(component) });
 }
 
-/** What licences ask whoever passes the package on to repeat: each text once, below the names of the parts that have it. */
+/** Notices to repeat by everyone who passes the package on: each text once, below the names of its components. */
 export function noticesOf(parts: readonly Part[]): string {
   const byText = new Map<string, string[]>();
   for (const { name, version, license, notices } of parts) {

@@ -1,9 +1,9 @@
 /**
  * Builds the npm package into `dist-package/` and packs it: `npm run package`.
  *
- * The package contains everything that it needs, so it works from a plain web server as well as through a bundler. The
- * addresses of the worker and of the WebAssembly module stay as in the source, `new URL("./worker.js", import.meta.url)`,
- * because bundlers look for that form. three.js is in chunks that only the 3-D view loads.
+ * The package is self-contained, so it works both from a plain web server and through a bundler. The URLs of the worker and of the
+ * WebAssembly module stay as in the source, `new URL("./worker.js", import.meta.url)`, because bundlers look for that form. three.js is in
+ * chunks that only the 3-D view loads.
  */
 import { execFileSync } from "node:child_process";
 import { copyFile, cp, mkdir, readdir, readFile, rm, writeFile } from "node:fs/promises";
@@ -17,7 +17,7 @@ import { bill, crateParts, noticesOf, npmParts } from "./bill.js";
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
-/** Limit of everything except three.js, gzipped. */
+/** Maximum size of everything except three.js, gzipped. */
 const LIMIT_BYTES = 1_050_000;
 
 const ENTRIES = {
@@ -26,7 +26,7 @@ const ENTRIES = {
   "element-class": "src/element/index.ts",
 } as const;
 
-/** Built separately, so that this one file can be copied if a bundler does not support workers. */
+/** Built separately as one file, to copy if a bundler does not support workers. */
 const WORKER = { worker: "src/api/worker.ts" } as const;
 
 /** Entries that add the element's types to a framework's markup, with the packages that define the markup. */
@@ -40,7 +40,7 @@ const FRAMEWORKS = {
 
 const WASM = "cusp_slicer_bg.wasm";
 
-/** Rewrites addresses for a package whose files lie in one folder. */
+/** Rewrites URLs for a package whose files are in one folder. */
 const flatAddresses: Plugin = {
   name: "cusp:flat-addresses",
   transform: {
@@ -49,7 +49,7 @@ const flatAddresses: Plugin = {
   },
 };
 
-/** Gives lit the globals that it needs on import, so that a server can import it too. */
+/** Provides the globals that lit needs on import, so that a server can import it too. */
 const onServers: Plugin = {
   name: "cusp:on-servers",
   transform: {
@@ -106,7 +106,7 @@ async function bundle(input: Readonly<Record<string, string>>, isOneFile = false
   return output.filter((it) => it.type === "chunk");
 }
 
-/** The files that the entries import, directly or indirectly. */
+/** Files imported by the entries, directly or indirectly. */
 function loadedAtOnce(chunks: readonly OutputChunk[]): ReadonlySet<string> {
   const loaded = new Set(chunks.filter(({ isEntry }) => isEntry).map(({ fileName }) => fileName));
   // The loop also visits the files that it adds.
@@ -114,7 +114,7 @@ function loadedAtOnce(chunks: readonly OutputChunk[]): ReadonlySet<string> {
   return loaded;
 }
 
-/** Writes the declarations, in which a stand-in replaces lit, since lit is bundled. */
+/** Writes the declarations. lit is bundled, so a stand-in replaces its types. */
 async function declare(): Promise<void> {
   const types = join(out, "types");
   execFileSync(process.execPath, [join(root, "node_modules/typescript/bin/tsc"), "-p", "package/tsconfig.json", "--outDir", types], {
@@ -123,7 +123,7 @@ async function declare(): Promise<void> {
   });
   const declarations = await readFile(join(root, "pkg/cusp_slicer.d.ts"), "utf8");
   await mkdir(join(types, "pkg"), { recursive: true });
-  // The type library of a host may not have `Symbol.dispose` yet.
+  // The host's type library may not have `Symbol.dispose` yet.
   await writeFile(join(types, "pkg/cusp_slicer.d.ts"), declarations.replaceAll(/^.*\[Symbol\.dispose\].*\n/gm, ""));
   await copyFile(join(root, "package/lit.d.ts"), join(types, "lit.d.ts"));
   await cp(join(root, "package/types"), types, { recursive: true });
@@ -137,7 +137,7 @@ async function declare(): Promise<void> {
   }
 }
 
-/** The guide for those who have only the package: its links to other files of the checkout lead to that version in the repository, if it has one. */
+/** The guide for readers without the checkout: links to other files lead to this version in the repository, if there is one. */
 function withoutFiles(guide: string, repository: string | undefined): string {
   return guide.replaceAll(/\[([^\]]*)\]\(([^)#:][^):]*)\)/g, (_link, text: string, file: string) =>
     repository === undefined ? text : `[${text}](${new URL(file, `${repository}/docs/`).href})`,
@@ -151,7 +151,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     types: `./types/${types}.d.ts`,
     default: `./${file}.js`,
   });
-  // With pnpm and Yarn a package sees only the dependencies that it names: these let declarations find a framework.
+  // With pnpm and Yarn, a package sees only its declared dependencies, so these let declarations find a framework.
   const peers = Object.values(FRAMEWORKS).flat();
   const description = {
     name: "cusp-slicer",
@@ -172,7 +172,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
     },
     peerDependencies: Object.fromEntries(peers.map((name) => [name, "*"])),
     peerDependenciesMeta: Object.fromEntries(peers.map((name) => [name, { optional: true }])),
-    // A bundler may leave out an unused import of these two, and keeps all other imports.
+    // A bundler may drop an unused import of these two, but no other.
     sideEffects: chunks.map(({ fileName }) => `./${fileName}`).filter((name) => !["./index.js", "./element-class.js"].includes(name)),
   };
   await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
@@ -181,7 +181,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
 }
 
-/** Writes the bill of materials, and the notices of what it lists. */
+/** Writes the bill of materials and the notices. */
 async function account(chunks: readonly OutputChunk[]): Promise<void> {
   const { name, version, license } = JSON.parse(await readFile(join(out, "package.json"), "utf8")) as { name: string; version: string; license: string };
   const parts = [...(await npmParts(root, chunks)), ...(await crateParts(root, [WASM]))];
@@ -189,7 +189,7 @@ async function account(chunks: readonly OutputChunk[]): Promise<void> {
   await writeFile(join(out, "NOTICES.txt"), noticesOf(parts));
 }
 
-/** Gzipped size of what a browser fetches: at once, and with the 3-D view, which is three.js. */
+/** Gzipped size of a browser's download: at first, and additionally with the 3-D view, which is three.js. */
 async function weigh(chunks: readonly OutputChunk[]): Promise<Record<"first" | "three", number>> {
   const gzipped = (bytes: string | Uint8Array): number => gzipSync(bytes, { level: 9 }).length;
   const sum = (some: readonly OutputChunk[]): number => some.reduce((total, { code }) => total + gzipped(code), 0);

@@ -1,4 +1,4 @@
-/** Stands in for lit's types in the package's declarations: lit is bundled, so it need not be installed. */
+/** Replaces lit's types in the package's declarations: lit is bundled, so it need not be installed. */
 export declare class LitElement extends HTMLElement {
   /** Resolves when the element shows its current properties. */
   readonly updateComplete: Promise<boolean>;
