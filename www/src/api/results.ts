@@ -25,7 +25,7 @@ export interface Mask {
 
 /** A print file. */
 export interface PrintFile extends Versioned {
-  /** Suggested file name: the name of the model, or what the file is, `-cusp`, and the extension, as in `cup-cusp.uvj`. */
+  /** Suggested file name: a stem, usually the name of the model, with `-cusp` and the extension, as in `cup-cusp.uvj`. */
   name: string;
   /** Media type: `application/zip`, or `application/octet-stream` if the format has its own extension. */
   type: string;

@@ -7,7 +7,6 @@ import { formatOf, type Format } from "./format.js";
 
 export type { Format } from "./format.js";
 
-/** The texts of any language. */
 export type Texts = ReturnType<typeof en.en>;
 
 /** A language in use: its texts and number formats. */

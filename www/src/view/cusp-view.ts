@@ -264,7 +264,7 @@ export class CuspView extends elementWith(PROPERTIES) {
   #near(): void {
     const { near, aligned, positions, z_mm } = this;
     const isCalm = this.#reducedMotion.matches;
-    // Without animation if aligned: that view has another camera, so nobody sees the flight.
+    // At once if aligned: that view has another camera, so the flight would be invisible.
     if (!near) this.#approach?.leave(isCalm || aligned);
     else if (!aligned && positions !== null && z_mm.length >= 2) this.#approach?.go({ positions, z_mm }, isCalm);
   }

@@ -29,7 +29,7 @@ const VERDICT = {
   ...{ layers: 3, max_error: 0.05, tolerance: 0.06, print_time_s: 3600, resin_ml: 10, print_is_same: true },
   warnings: WARNINGS,
 };
-/** Answer of the stand-in. It computes a price from its arguments and the prices file in the folder, by a formula of its own. */
+/** Answer of the stand-in. It computes a price from its arguments and the prices file in the folder, by a made-up formula. */
 const answering = (verdict: string): string => `{
   const read = (flag) => JSON.parse(require("node:fs").readFileSync(process.argv[process.argv.indexOf(flag) + 1], "utf8"));
   const prices = read("--prices");

@@ -1,4 +1,3 @@
-/** The custom elements of the panels. */
 import { define } from "../define.js";
 import type { CuspOrientation } from "./orientation-panel.js";
 import type { CuspSphere } from "./orientation-sphere.js";

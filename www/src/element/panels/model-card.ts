@@ -1,4 +1,3 @@
-/** The card of the open model. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { PlateChoice, Warning } from "../../api/wire.js";
 import { shown } from "../../api/visible.js";

@@ -5,7 +5,6 @@ import type { Language } from "../../texts/index.js";
 
 export interface Busy {
   task: "open" | "plan" | "export" | "towers" | "orient";
-  /** The model's name. */
   name: string;
   stage: Stage;
   /** 0 to 1 within the stage. */

@@ -14,7 +14,6 @@ export type Aims = Readonly<
 
 /** Input of a search. */
 export interface Subject {
-  /** The model's name. */
   readonly name: string;
   readonly options: Options;
   readonly weights: Float32Array | null;

@@ -1,4 +1,3 @@
-/** The styles of the chart. */
 import { css, unsafeCSS } from "lit";
 import { gradient } from "../../view/legend/palette.js";
 import { lineIcon } from "./shared.js";

@@ -1,4 +1,4 @@
-/** The styles of the field of copies, in the list and beside a single model. */
+/** The styles of the copies field, in the list and next to a single model. */
 import { css } from "lit";
 
 export const copiesStyles = css`

@@ -1,4 +1,3 @@
-/** The styles of the panel of findings. */
 import { css } from "lit";
 
 export const findingsStyles = css`

@@ -1,4 +1,3 @@
-/** The layout of the element's panels. */
 import { css } from "lit";
 import { lineIcon } from "./shared.js";
 

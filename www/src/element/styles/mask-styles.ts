@@ -1,4 +1,3 @@
-/** The styles of the mask panel. */
 import { css } from "lit";
 import { filling } from "./shared.js";
 

@@ -1,4 +1,3 @@
-/** The styles of the panel around the 3-D view. */
 import { css } from "lit";
 import { filling } from "./shared.js";
 

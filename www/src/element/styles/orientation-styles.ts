@@ -1,4 +1,3 @@
-/** The styles of the orientation panel. */
 import { css } from "lit";
 
 export const orientationStyles = css`

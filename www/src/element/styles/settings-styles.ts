@@ -1,4 +1,3 @@
-/** The styles of the settings form. */
 import { css } from "lit";
 
 export const settingsStyles = css`

@@ -1,4 +1,3 @@
-/** German. */
 import type { PageWords } from "./index.js";
 
 export const words: PageWords = {

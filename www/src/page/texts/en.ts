@@ -1,4 +1,3 @@
-/** English. */
 import type { PageWords } from "./index.js";
 
 export const words: PageWords = {

@@ -1,4 +1,3 @@
-/** Spanish. */
 import type { PageWords } from "./index.js";
 
 export const words: PageWords = {

@@ -1,4 +1,3 @@
-/** French. */
 import type { PageWords } from "./index.js";
 
 export const words: PageWords = {

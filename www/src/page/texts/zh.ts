@@ -1,4 +1,3 @@
-/** Chinese, simplified. */
 import type { PageWords } from "./index.js";
 
 export const words: PageWords = {

@@ -57,7 +57,6 @@ interface Catalogue {
 
 const CATALOGUES: Readonly<Record<LanguageCode, Catalogue>> = { de, en, es, fr, zh };
 
-/** The texts in a language. */
 export interface PrintTexts {
   words: PrintWords;
   finding(finding: FileFinding): string;

@@ -1,4 +1,3 @@
-/** Chinese, simplified. */
 import type { Format } from "../../texts/format.js";
 import type { ErrorSentences, FaultSentences, FindingSentences, PrintWords } from "./index.js";
 

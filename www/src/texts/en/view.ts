@@ -1,4 +1,3 @@
-/** The 3-D view. */
 import { ENGLISH_SENTENCES } from "../../view/texts.js";
 import type { Format } from "../format.js";
 import { LAYERS } from "./nouns.js";

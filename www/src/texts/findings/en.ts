@@ -1,4 +1,3 @@
-/** English. */
 import type { Format } from "../format.js";
 import type { FindingsTexts } from "./index.js";
 

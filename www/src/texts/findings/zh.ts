@@ -1,4 +1,3 @@
-/** Chinese. */
 import type { Format } from "../format.js";
 import type { FindingsTexts } from "./index.js";
 

@@ -1,4 +1,3 @@
-/** German. */
 import type { PaintingTexts } from "./index.js";
 
 export const painting: PaintingTexts = {

@@ -1,4 +1,3 @@
-/** English. */
 export const painting = {
   title: "What matters",
   hint: "The tolerance holds where the weight is 100%. Where something matters less, layers may be thicker. Paint on the model; drag beside it to turn the view.",

@@ -1,4 +1,3 @@
-/** Spanish. */
 import type { PaintingTexts } from "./index.js";
 
 export const painting: PaintingTexts = {

@@ -1,4 +1,3 @@
-/** French. */
 import type { PaintingTexts } from "./index.js";
 
 export const painting: PaintingTexts = {

@@ -1,4 +1,3 @@
-/** Chinese. */
 import type { PaintingTexts } from "./index.js";
 
 export const painting: PaintingTexts = {

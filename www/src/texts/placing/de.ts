@@ -1,4 +1,3 @@
-/** German. */
 import type { PlacingTexts } from "./index.js";
 
 export const placing: PlacingTexts = {

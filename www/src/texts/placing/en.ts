@@ -1,4 +1,3 @@
-/** English. */
 import type { PlacingTexts } from "./index.js";
 
 export const placing: PlacingTexts = {

@@ -1,4 +1,3 @@
-/** Spanish. */
 import type { PlacingTexts } from "./index.js";
 
 export const placing: PlacingTexts = {

@@ -1,4 +1,3 @@
-/** French. */
 import type { PlacingTexts } from "./index.js";
 
 export const placing: PlacingTexts = {

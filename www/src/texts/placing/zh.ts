@@ -1,4 +1,3 @@
-/** Chinese. */
 import type { PlacingTexts } from "./index.js";
 
 export const placing: PlacingTexts = {

@@ -1,4 +1,3 @@
-/** German. */
 import type { WorkbenchWords } from "./index.js";
 
 export const words: WorkbenchWords = {

@@ -1,4 +1,3 @@
-/** English. */
 import type { WorkbenchWords } from "./index.js";
 
 export const words: WorkbenchWords = {

@@ -1,4 +1,3 @@
-/** Spanish. */
 import type { WorkbenchWords } from "./index.js";
 
 export const words: WorkbenchWords = {

@@ -1,4 +1,3 @@
-/** French. */
 import type { WorkbenchWords } from "./index.js";
 
 export const words: WorkbenchWords = {

@@ -1,4 +1,3 @@
-/** Chinese. */
 import type { WorkbenchWords } from "./index.js";
 
 export const words: WorkbenchWords = {

@@ -1,4 +1,3 @@
-/** German. */
 import type { VisitWords } from "./index.js";
 
 export const words: VisitWords = {

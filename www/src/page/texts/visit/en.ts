@@ -1,4 +1,3 @@
-/** English. */
 import type { VisitWords } from "./index.js";
 
 export const words: VisitWords = {

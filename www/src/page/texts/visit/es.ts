@@ -1,4 +1,3 @@
-/** Spanish. */
 import type { VisitWords } from "./index.js";
 
 export const words: VisitWords = {

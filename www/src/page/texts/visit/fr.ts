@@ -1,4 +1,3 @@
-/** French. */
 import type { VisitWords } from "./index.js";
 
 export const words: VisitWords = {

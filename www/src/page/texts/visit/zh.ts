@@ -1,4 +1,3 @@
-/** Chinese, simplified. */
 import type { VisitWords } from "./index.js";
 
 export const words: VisitWords = {
