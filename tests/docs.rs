@@ -64,30 +64,58 @@ fn the_elements_document_names_the_defaults_of_the_library() {
     assert_says(EMBED, &said);
 }
 
-/// The table of known printers, a line for each.
+/// A row of the table of known printers.
+struct PrinterRow {
+    /// What its printers have in common: format, several thicknesses, source.
+    common: String,
+    /// Maker of the last printer in it.
+    maker: String,
+    printers: String,
+}
+
+/// The table of known printers: a row for each format, with what is known of layers of several thicknesses.
 fn printer_table() -> String {
-    let mut table = String::new();
+    let mut rows: Vec<PrinterRow> = Vec::new();
     for printer in PRINTERS.iter() {
-        let [columns, rows] = printer.pixels;
-        let [x_um, y_um] = printer.pitch_um;
-        let variable = printer.variable_layers.name();
-        let _ = writeln!(
-            table,
-            "| `{}` | {} | {columns} × {rows} | {x_um} × {y_um} | `{}`{} | {}{} | {variable} | {} |",
-            printer.name,
-            printer.model,
+        let version = printer.file_version;
+        let common = format!(
+            "`{}`{}{} | {} | {}",
             printer.format.name(),
-            printer
-                .file_version
-                .map_or(String::new(), |version| format!(" {version}")),
-            printer.reads.join(", "),
+            version.map_or(String::new(), |version| format!(" {version}")),
             if printer.reads_format {
                 ""
             } else {
                 ", by a converter"
             },
+            printer.variable_layers.name(),
             printer.variable_layers_source,
         );
+        let maker = printer.model.split(' ').next().unwrap();
+        let files = printer.reads.join(", ");
+        let files = if files == printer.format.extension() {
+            String::new()
+        } else {
+            format!(" ({files})")
+        };
+        let name = format!("`{}`{files}", printer.name);
+        match rows.iter_mut().find(|row| row.common == common) {
+            Some(row) if row.maker == maker => {
+                let _ = write!(row.printers, ", {name}");
+            }
+            Some(row) => {
+                let _ = write!(row.printers, "; {maker} {name}");
+                maker.clone_into(&mut row.maker);
+            }
+            None => rows.push(PrinterRow {
+                common,
+                maker: maker.to_owned(),
+                printers: format!("{maker} {name}"),
+            }),
+        }
+    }
+    let mut table = String::new();
+    for row in rows {
+        let _ = writeln!(table, "| {} | {} |", row.common, row.printers);
     }
     table
 }
@@ -95,7 +123,7 @@ fn printer_table() -> String {
 /// `BLESS=1` rewrites the table.
 #[test]
 fn known_printers_are_in_the_document() {
-    const HEAD: &str = "|---|---|---|---|---|---|---|---|\n";
+    const HEAD: &str = "|---|---|---|---|\n";
     const END: &str = "<!-- end -->";
     let path = std::path::Path::new(env!("CARGO_MANIFEST_DIR")).join(PRINT_FILES);
     let document = std::fs::read_to_string(&path).unwrap();
