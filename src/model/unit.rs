@@ -1,4 +1,6 @@
 //! Units of the coordinates in a model's file.
+//!
+//! A unit is part of the pose, like a height: it scales the model on the plate, and weights and views stay in the file's frame.
 
 use serde::{Deserialize, Serialize};
 

@@ -1,4 +1,7 @@
 //! Energies of candidates (eq. 25), their local minima, and the best distinct candidates.
+//!
+//! ε of eq. 25 is the largest error of a layer, as in table 3. Plans keep it near the tolerance, so roughness and overhang separate
+//! directions better and can take its place.
 
 use glam::DVec3;
 

@@ -5,6 +5,8 @@
 //! together determine their energies. Rings of directions then refine the local [`minima`], and the best distinct candidates
 //! are the result. [`Search`] drives this as a state machine: it hands out directions to measure, and does no work or I/O
 //! itself. Threads, workers or machines run its tasks in any order, and the result is the same.
+//!
+//! Without rays, facets hidden inside other bodies count, as in live previews. The plan that follows leaves them out.
 
 mod basins;
 pub(crate) mod directions;

@@ -3,6 +3,8 @@
 //! A column is a vertical line through the centre of a square of `pitch_mm`. Along columns heights are exact; from one column to the
 //! next the solid is known to a column. So the distance to it, or to the outside, is found at most a pitch too long,
 //! and half a pitch on average.
+//!
+//! Distances to the facets would not do: facets inside overlapping bodies are no surface, and the columns know the union.
 
 use crate::ldi::{Ldi, model_ranges};
 use crate::parallel;

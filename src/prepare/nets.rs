@@ -3,6 +3,8 @@
 //! Each cell of eight nodes that the surface passes has a vertex, the mean of the points where the surface crosses the cell's edges.
 //! Each edge that it crosses has a quadrilateral between the vertices of the four cells around it (Gibson, "Constrained elastic surface
 //! nets", 1998; here without relaxation).
+//!
+//! The lattice is visited slice by slice, and two slices are in memory: all of it would take gigabytes for a plate of a 12K screen.
 
 use glam::Vec3;
 

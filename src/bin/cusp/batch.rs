@@ -1,4 +1,7 @@
 //! Several models with the same settings, side by side.
+//!
+//! All models share rayon's pool: work that one of them does on a single thread, such as reading and planning, fills the time that the
+//! others leave.
 
 use std::ops::ControlFlow;
 use std::path::{Path, PathBuf};
