@@ -151,7 +151,7 @@ const seen = (page: Page): Promise<string[]> => page.evaluate(() => window.seen)
 test("an idle page fetches the view and compiles a plan before there is a model; then the plan comes first, and the view has its model", async () => {
   const { page, scripts } = await noted();
   await expect.poll(() => scripts.some((name) => name.startsWith("cusp-view"))).toBe(true);
-  await expect.poll(() => seen(page)).toContain("rehearse");
+  await expect.poll(() => seen(page)).toContain("warmUp");
   expect(await seen(page)).not.toContain("view");
   await drop(page, ball);
   await expect.poll(() => seen(page)).toContain("view");
@@ -170,7 +170,7 @@ test("an idle page fetches the view and compiles a plan before there is a model;
 
 test("for whoever saves data, the view is fetched with the first model", async () => {
   const { page, scripts } = await noted("?saves");
-  await expect.poll(() => seen(page)).toContain("rehearse");
+  await expect.poll(() => seen(page)).toContain("warmUp");
   await page.waitForLoadState("networkidle");
   expect(scripts.filter((name) => name.startsWith("cusp-view"))).toEqual([]);
   await drop(page, ball);

@@ -5,7 +5,7 @@
  * that a fresh worker needs.
  */
 import { isAbort, ofCore, said, SlicerError } from "./error.js";
-import { told, untold } from "./told.js";
+import { callback, release } from "./callbacks.js";
 import type { OnProgress, Remote } from "./wire.js";
 
 export type { Remote };
@@ -27,7 +27,7 @@ export interface Watch {
 }
 
 /** Ignores progress. */
-export const silent: OnProgress = told(() => undefined);
+export const silent: OnProgress = callback(() => undefined);
 
 /** The compiled module, shared by all clients from the moment the first worker starts to compile it. */
 export interface Compiled {
@@ -145,7 +145,7 @@ export class Calls<Held> {
     const life = this.#live();
     const abort = (): void => life.end(signal?.reason);
     signal?.addEventListener("abort", abort, { once: true });
-    const progress = told<OnProgress>((stage, fraction, done) => {
+    const progress = callback<OnProgress>((stage, fraction, done) => {
       // Ignore progress that arrives after an abort.
       if (signal?.aborted !== true) onProgress?.(stage, fraction, done);
     });
@@ -155,7 +155,7 @@ export class Calls<Held> {
       throw this.#understand(error, life, signal);
     } finally {
       signal?.removeEventListener("abort", abort);
-      untold(progress);
+      release(progress);
     }
   }
 

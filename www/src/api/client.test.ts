@@ -107,7 +107,7 @@ test("warm() starts the worker that later calls use, and only that one", async (
 test("a warm worker rehearses a plan once it is idle, unless it has been asked for something by then", async () => {
   caller.client.warm();
   void caller.client.printers();
-  await expect.poll(() => log).toEqual(["1: boot, compiling", "1: rehearse"]);
+  await expect.poll(() => log).toEqual(["1: boot, compiling", "1: warmUp"]);
   const busy = new Caller(() => new FakeWorker());
   busy.client.warm();
   await busy.open(new Blob(["a"]), watch());

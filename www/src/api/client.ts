@@ -8,7 +8,7 @@ import * as Comlink from "comlink";
 import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch, type WorkerHandle } from "./calls.js";
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
-import { told, untold } from "./told.js";
+import { callback, release } from "./callbacks.js";
 import type { Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Written } from "./wire.js";
 
 /** Importance of each facet, 0 to 1; null: all equal. */
@@ -70,7 +70,7 @@ export class Client {
 
   /** Starts the worker early and has it compile the code of a plan. The first real call reports a failure. */
   warm(): void {
-    this.#calls.warm(async ({ handle }) => handle.remote.rehearse()).catch(() => undefined);
+    this.#calls.warm(async ({ handle }) => handle.remote.warmUp()).catch(() => undefined);
   }
 
   /** Adds a model after `others`, or with `null` replaces all, once its file has arrived. On failure or abort, the previous models stay. */
@@ -135,11 +135,11 @@ export class Client {
   archiveTo(plate: number, wanted: Promise<Job> | null, take: (chunk: Uint8Array) => void, watch: Watch): Promise<void> {
     return this.#calls.run(watch, wanted, async (life, job, progress) => {
       await this.#planFor(life, job, progress);
-      const chunks = told((chunk: Uint8Array) => take(chunk));
+      const chunks = callback((chunk: Uint8Array) => take(chunk));
       try {
         await life.handle.remote.archive(plate, progress, chunks, this.#helpers, Comlink.proxy(this.#help));
       } finally {
-        untold(chunks);
+        release(chunks);
       }
     });
   }

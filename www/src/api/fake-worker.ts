@@ -19,7 +19,7 @@ export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
   return {
     boot: async () => ({}),
     memory: () => 0,
-    rehearse: async () => say("rehearse"),
+    warmUp: async () => say("warmUp"),
     add: async (file, _reading, _progress, wantsPositions) => {
       const text = file.size < 100 ? await file.text() : "large";
       await work(`add ${text}`);

@@ -120,7 +120,7 @@ function faked({ workers, slowness = () => 0, hangs, fails, within = 4 }: Setup)
       ...fakeWorker(unused),
       memory: () => 0,
       boot: async () => ({}),
-      rehearse: unused,
+      warmUp: unused,
       add: async (file) => {
         const text = await file.text();
         return work(`add ${text}`, () => ({ info: { facets: FACETS, search_bytes: 0 } as MeshInfo }));

@@ -2,7 +2,7 @@
 import * as Comlink from "comlink";
 import { broke, type WorkerHandle } from "./calls.js";
 import { whenEnded } from "./liveness.js";
-import { listenTo } from "./told.js";
+import { listenTo } from "./callbacks.js";
 import type { SlicerWorker } from "./wire.js";
 
 /** URL of the folder with the package's files, relative to the page; null: where the bundler put them. */

@@ -142,7 +142,7 @@ export interface SlicerWorker {
   /** The core's memory in bytes, which never shrinks. */
   memory(): number;
   /** Plans and discards a small ring, so that the browser compiles the code beforehand. */
-  rehearse(): Promise<void>;
+  warmUp(): Promise<void>;
   /** Reads a model and appends it to the others; with `wantsPositions`, returns the corners of its facets. */
   add(file: Blob, reading: ReadOptions, progress: OnProgress, wantsPositions?: boolean): Promise<Opened>;
   remove(model: number): void;

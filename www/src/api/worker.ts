@@ -7,7 +7,7 @@ import { encodeGroups, isLong } from "./encode-groups.js";
 import { holdLock } from "./liveness.js";
 import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
-import "./told.js";
+import "./callbacks.js";
 import { endUpperHalves } from "./vectors.js";
 import type { Help, KnownPrinter, OnProgress, PackedCandidates, Remote, SearchStep } from "./wire.js";
 
@@ -89,7 +89,7 @@ const api: Remote = {
     return compiled;
   },
   memory: () => core?.memory.buffer.byteLength ?? 0,
-  async rehearse() {
+  async warmUp() {
     const ringed = new Job();
     ringed.add(stlOf(ring(REHEARSED)), {});
     await ringed.plan({ options: { rays: REHEARSED_RAYS, backend: "cpu" } }, () => undefined);

@@ -70,7 +70,7 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     .scaled=${scaledOf(session)}
     .printer=${printerOf(settings.printer, session.printers)}
     .copies=${session.plate.copies}
-    .crowded=${session.plate.crowded}
+    .colliding=${session.plate.colliding}
     .shapes=${session.plate}
     @cusp-move=${({ detail: { place, final, ...to } }: CustomEvent<MoveDetail>) => session.plate.move(place, to, final)}
     @cusp-entry=${(event: CustomEvent<Entry>) => session.plate.select(session.plate.entries.indexOf(event.detail))}

@@ -3,7 +3,7 @@ import * as Comlink from "comlink";
 import { SlicerError } from "../api/error.js";
 import type { Mask } from "../api/index.js";
 import { partError } from "../element/parts/part.js";
-import { listenTo, told, untold } from "../api/told.js";
+import { listenTo, callback, release } from "../api/callbacks.js";
 import type { PrintFileError, Read, ReaderWorker } from "./wire.js";
 
 /** Errors raised outside the reader. */
@@ -26,7 +26,7 @@ export interface Print extends Read {
 export async function openPrint(file: File, signal: AbortSignal, progress: (fraction: number) => void): Promise<Print> {
   const worker = new Worker(new URL("./worker.ts", import.meta.url), { type: "module", name: "cusp-reader" });
   listenTo(worker);
-  const heard = told((fraction: number) => progress(fraction));
+  const heard = callback((fraction: number) => progress(fraction));
   const remote = Comlink.wrap<ReaderWorker>(worker);
   const broken = new Promise<never>((_, reject) => {
     worker.addEventListener("error", ({ message }) => reject(crash(message)));
@@ -48,7 +48,7 @@ export async function openPrint(file: File, signal: AbortSignal, progress: (frac
     worker.terminate();
     throw isCoded(error) || error instanceof SlicerError || signal.aborted ? error : crash(error instanceof Error ? error.message : String(error));
   } finally {
-    untold(heard);
+    release(heard);
   }
 }
 

@@ -2,7 +2,7 @@
 import * as Comlink from "comlink";
 import init, { PrintReader } from "../../pkg/cusp_reader.js";
 import { bytesOf } from "../api/bytes.js";
-import "../api/told.js";
+import "../api/callbacks.js";
 import { endUpperHalves } from "../api/vectors.js";
 import type { Picture, ReaderWorker } from "./wire.js";
 

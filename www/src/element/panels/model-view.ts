@@ -79,7 +79,7 @@ const PROPERTIES = {
   /** Copies on the plate shown; empty for a single model. */
   copies: given<readonly Copy[]>([]),
   /** Indices of copies that overlap others or extend beyond the plate. */
-  crowded: given<ReadonlySet<number>>(new Set()),
+  colliding: given<ReadonlySet<number>>(new Set()),
   /** Source of the positions of the plate's models. */
   shapes: given<Shapes | null>(null),
   language: given(languageOf()),
@@ -157,8 +157,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
       void this.#fetch();
     }
     if (changed.has("positions") || changed.has("scaled")) this.#fit();
-    if (changed.has("copies") || changed.has("crowded") || changed.has("positions")) {
-      this.#plate.show(this.copies, this.crowded, this.shapes);
+    if (changed.has("copies") || changed.has("colliding") || changed.has("positions")) {
+      this.#plate.show(this.copies, this.colliding, this.shapes);
     }
     if ((this.tool === "move" || places(this.tool)) && !this.#offered.has(this.tool)) this.tool = "turn";
     const isPainting = this.tool === "paint";

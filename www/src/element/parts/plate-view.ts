@@ -23,7 +23,7 @@ export class PlateView {
     this.#draw = draw;
   }
 
-  show(copies: readonly Copy[], crowded: ReadonlySet<number>, source: Shapes | null): void {
+  show(copies: readonly Copy[], colliding: ReadonlySet<number>, source: Shapes | null): void {
     const show = ++this.#shows;
     if (copies.length === 0 || source === null) return this.#draw([]);
     const heights = new Map(copies.map(({ entry, height_mm }) => [entry, height_mm]));
@@ -39,7 +39,7 @@ export class PlateView {
         this.#draw(
           copies.map(({ entry, place, x_mm, y_mm, turn_deg, supports }) => {
             const shape = shapes.get(entry) as Shape;
-            return { place, shape, x_mm, y_mm, turn_deg, isCrowded: crowded.has(place), supports };
+            return { place, shape, x_mm, y_mm, turn_deg, isColliding: colliding.has(place), supports };
           }),
         );
       },

@@ -172,7 +172,7 @@ test("what is wrong with the places is asked while a copy is moved", async () =>
   answers = [{ code: "plate-collision", detail: { model_numbers: [1, 1], copy_numbers: [1, 3], plate_number: 1 } }];
   plate.move(1, { x_mm: 1 }, false);
   await expect.poll(() => plate.problems).toEqual(answers);
-  expect([...plate.crowded]).toEqual([0, 2]);
+  expect([...plate.colliding]).toEqual([0, 2]);
 });
 
 test("copies have the supports of their model, until it has another pose", async () => {

@@ -3,7 +3,7 @@ import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, 
 import type { Source } from "../../api/source.js";
 import { FACTS } from "../../api/facts.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
-import { placesOf } from "./crowded.js";
+import { placesOf } from "./collisions.js";
 import type { SlicerCalls } from "./host.js";
 import { DEFAULT_SETTINGS, quaternion, rotationText, type Fault, type Settings } from "./settings.js";
 import { isEqual } from "./plain.js";
@@ -112,12 +112,12 @@ export class Plate {
   /** True while a copy is being dragged. */
   #isMoving = false;
   #drags = 0;
-  /** Cached values of `copies` and `crowded`, since a new object would count as a change. */
+  /** Cached values of `copies` and `colliding`, since a new object would count as a change. */
   #copies: { entries: unknown; placements: unknown; number: number; planned: unknown; copies: readonly Copy[] } = {
     ...{ entries: null, placements: null, number: 0, planned: null },
     copies: [],
   };
-  #crowded: { placements: unknown; problems: unknown; places: ReadonlySet<number> } = { placements: null, problems: null, places: new Set() };
+  #colliding: { placements: unknown; problems: unknown; places: ReadonlySet<number> } = { placements: null, problems: null, places: new Set() };
   #options: Options = {};
   #isAsking = false;
   #asked: readonly Placement[] | null = null;
@@ -164,11 +164,11 @@ export class Plate {
   }
 
   /** Indices of copies with faulty placements. */
-  get crowded(): ReadonlySet<number> {
+  get colliding(): ReadonlySet<number> {
     const { placements, problems } = this;
-    if (this.#crowded.placements === placements && this.#crowded.problems === problems) return this.#crowded.places;
+    if (this.#colliding.placements === placements && this.#colliding.problems === problems) return this.#colliding.places;
     const places = placesOf(problems, placements);
-    this.#crowded = { placements, problems, places };
+    this.#colliding = { placements, problems, places };
     return places;
   }
 

@@ -7,12 +7,12 @@ import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import type { SlicerError } from "../../api/error.js";
 import { sameRays } from "../../api/facts.js";
 import type { Candidate, Options, Price, TradeoffPoint } from "../../api/wire.js";
-import { Beside } from "./beside.js";
+import { BackgroundQueries } from "./background.js";
 import { Checks } from "./checks.js";
 import { Curve, withPoint } from "./curve.js";
 import type { Download, Host, Setup, SlicerCalls } from "./host.js";
 import { OrientationSearch, withPose, type Subject } from "./orientation.js";
-import { Follower, type Rotation } from "./follow.js";
+import { LivePreview, type Rotation } from "./live-preview.js";
 import { layerAt } from "../../view/scene/lookup.js";
 import { Models } from "./models.js";
 import type { Busy } from "../parts/progress.js";
@@ -35,8 +35,8 @@ export class Session extends Models {
 
   #isStarted = false;
   readonly #curve = new Curve();
-  readonly #beside: Beside;
-  readonly #follower: Follower;
+  readonly #background: BackgroundQueries;
+  readonly #preview: LivePreview;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Options to plan with at the end of the running task. */
   #next: Options | null = null;
@@ -67,7 +67,7 @@ export class Session extends Models {
           return own();
         },
         changed: reports.changed,
-        wanted: () => void this.#beside.fetch(),
+        wanted: () => void this.#background.fetch(),
         checked: (check) => host.checked?.(check),
         unchecked: (error) => host.unchecked?.(error),
         look: (layer) => this.selectLayer(layer),
@@ -76,11 +76,11 @@ export class Session extends Models {
     );
     const isFree = (): boolean => this.runner.task === null;
     const prices = { priced: (price: Price) => host.priced?.(price), mispriced: (error: SlicerError) => host.mispriced?.(error) };
-    this.#beside = new Beside(this, { ...reports, ...prices, isFree, curved: () => this.#takeQuality() }, this.plate, {
+    this.#background = new BackgroundQueries(this, { ...reports, ...prices, isFree, curved: () => this.#takeQuality() }, this.plate, {
       curve: this.#curve,
       checks: this.checks,
     });
-    this.#follower = new Follower(this.selected, (shown) => {
+    this.#preview = new LivePreview(this.selected, (shown) => {
       this.shown = shown;
       this.changed();
     });
@@ -88,12 +88,12 @@ export class Session extends Models {
 
   /** Mask of the selected layer; the previous mask until it arrives. */
   get mask(): Mask | null {
-    return this.#beside.mask;
+    return this.#background.mask;
   }
 
   /** Prices of a shop, and the price of the result, or briefly of the previous one. */
-  get pricing(): Pick<Beside, "asked" | "price" | "isPriced"> {
-    return this.#beside;
+  get pricing(): Pick<BackgroundQueries, "asked" | "price" | "isPriced"> {
+    return this.#background;
   }
 
   /** The best plans of the model, from the tightest tolerance to the loosest; null until known. */
@@ -103,7 +103,7 @@ export class Session extends Models {
 
   /** Rotation of the model while the user is turning it; otherwise null. */
   get turning(): Rotation | null {
-    return this.#follower.turning;
+    return this.#preview.turning;
   }
 
   /** State of the test towers for the printer. */
@@ -146,8 +146,8 @@ export class Session extends Models {
 
   /** Turns the model: previews it during the turn, and plans on release. */
   turn(rotation: Rotation, isFinal: boolean): void {
-    if (!isFinal) return this.#follower.turn(rotation, this.options);
-    this.#follower.stop();
+    if (!isFinal) return this.#preview.turn(rotation, this.options);
+    this.#preview.stop();
     const text = rotationText(rotation);
     // A turn back has its own kind, so that the turn stays an undo step.
     this.change({ rotation: text }, text === "" ? "turn back" : "turn");
@@ -155,7 +155,7 @@ export class Session extends Models {
 
   /** Applies the pose of a candidate of {@link orientation}. */
   orient(candidate: Candidate): void {
-    this.#follower.stop();
+    this.#preview.stop();
     this.change(withPose(this.settings, candidate));
     if (this.options !== null) this.orientation.applied(this.options);
     this.host.oriented?.(candidate);
@@ -164,10 +164,10 @@ export class Session extends Models {
   protected override painted(isFinal: boolean): void {
     const { options } = this;
     if (!isFinal) {
-      if (options !== null) void this.#follower.follow(options);
+      if (options !== null) void this.#preview.follow(options);
       return;
     }
-    this.#follower.stop();
+    this.#preview.stop();
     this.#curve.forget();
     this.replan();
   }
@@ -220,7 +220,7 @@ export class Session extends Models {
     this.notice = task === "export" || task === "towers" ? "exportCancelled" : "cancelled";
     this.host.cancelled?.();
     this.changed();
-    void this.#beside.fetch();
+    void this.#background.fetch();
   }
 
   /** Makes the print file of the result; null if there is no result, a task runs, or the file failed or was cancelled. */
@@ -250,7 +250,7 @@ export class Session extends Models {
     if (this.result === null) return;
     this.layer = Math.min(Math.max(0, Math.round(layer)), this.result.report.layers - 1);
     this.changed();
-    void this.#beside.fetch();
+    void this.#background.fetch();
   }
 
   protected override preferred(delay_ms: number): void {
@@ -261,14 +261,14 @@ export class Session extends Models {
   }
 
   protected override left(isNew: boolean): void {
-    this.#follower.stop();
+    this.#preview.stop();
     this.orientation.forget();
     if (!isNew) return;
     this.#next = null;
     this.result = null;
     this.#refused = null;
     this.shown = null;
-    this.#beside.mask = this.#beside.price = null;
+    this.#background.mask = this.#background.price = null;
     this.#curve.forget();
     this.checks.forget();
   }
@@ -313,10 +313,10 @@ export class Session extends Models {
     const { result } = this;
     if (result === null) return;
     this.#archive = null;
-    this.#beside.mask = null;
+    this.#background.mask = null;
     this.#curve.forget();
     this.#show(plan, result.options, this.#weightsOf);
-    void this.#beside.fetch();
+    void this.#background.fetch();
   }
 
   /** Records a refused plan; a cancelled one may succeed later. */
@@ -331,7 +331,7 @@ export class Session extends Models {
   protected override async resume(): Promise<void> {
     const next = this.#next;
     if (this.runner.task !== null) return;
-    if (next === null) return this.#beside.fetch();
+    if (next === null) return this.#background.fetch();
     this.#next = null;
     await this.#plan(next);
   }
@@ -352,7 +352,7 @@ export class Session extends Models {
     // Keeps the height of the selected layer; starts in the middle of a new model.
     this.layer = layerAt(report.z_mm, z === undefined ? report.height_mm / 2 : (z * report.height_mm) / (before?.height_mm ?? 1));
     if (before === undefined && this.notice === "cancelled") this.notice = null;
-    if (before === undefined) this.#beside.mask = null;
+    if (before === undefined) this.#background.mask = null;
     this.#curve.fit(result);
     this.host.planned?.(result);
     this.changed();

@@ -8,7 +8,7 @@ const shape: Shape = { positions: new Float32Array(0), rotation: [0, 0, 0, 1], s
 const size: Triple = [10, 4, 6];
 const sizeOf = (): Triple => size;
 
-const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isCrowded: false, supports: null });
+const copy = (place: number, x_mm: number, y_mm: number, turn_deg = 0): Copy => ({ place, shape, x_mm, y_mm, turn_deg, isColliding: false, supports: null });
 
 test("a copy is turned counter-clockwise about its own middle, then moved", () => {
   const corner = new Vector3(5, 2, 0).applyMatrix4(matrixOf(copy(0, 100, 50, 90)));

@@ -23,7 +23,7 @@ export interface Copy {
   /** Counter-clockwise as seen from above. */
   readonly turn_deg: number;
   /** True if the copy overlaps another or extends beyond the plate. */
-  readonly isCrowded: boolean;
+  readonly isColliding: boolean;
   /** Nine numbers per facet, mm, for an unrotated copy in the middle, z from the plate; shared by copies of one model. */
   readonly supports: Float32Array | null;
 }
@@ -48,7 +48,7 @@ export class Copies {
   readonly #bodies = new Group();
   readonly #supports = new Group();
   readonly #plain: RawShaderMaterial;
-  readonly #crowded: RawShaderMaterial;
+  readonly #colliding: RawShaderMaterial;
   readonly #ofSupports: RawShaderMaterial;
   readonly #posed = new Map<Shape, Posed>();
   readonly #supported = new Map<Float32Array, BufferGeometry>();
@@ -67,7 +67,7 @@ export class Copies {
         uniforms: { ...uniforms, ...own },
       });
     this.#plain = material({});
-    this.#crowded = material({ byThickness: { value: false }, resin: { value: new Vector3(0.8, 0.2, 0.2) } });
+    this.#colliding = material({ byThickness: { value: false }, resin: { value: new Vector3(0.8, 0.2, 0.2) } });
     this.#ofSupports = ofSupports;
     this.group.add(this.#bodies, this.#supports);
   }
@@ -82,13 +82,13 @@ export class Copies {
   }
 
   setBad([r, g, b]: Rgb): void {
-    const resin = this.#crowded.uniforms["resin"];
+    const resin = this.#colliding.uniforms["resin"];
     if (resin !== undefined) resin.value = new Vector3(r, g, b).divideScalar(255);
   }
 
   /** Material of copies with faulty placements. */
-  get crowded(): RawShaderMaterial {
-    return this.#crowded;
+  get colliding(): RawShaderMaterial {
+    return this.#colliding;
   }
 
   /** Shows these copies with their supports, except the one at `selected`. */
@@ -99,7 +99,7 @@ export class Copies {
       if (copy.place === selected) continue;
       const { geometry, matrix } = this.#of(copy.shape);
       const stand = matrixOf(copy);
-      this.#bodies.add(fixed(new Mesh(geometry, copy.isCrowded ? this.#crowded : this.#plain), stand.clone().multiply(matrix)));
+      this.#bodies.add(fixed(new Mesh(geometry, copy.isColliding ? this.#colliding : this.#plain), stand.clone().multiply(matrix)));
       if (copy.supports !== null) this.#supports.add(fixed(new Mesh(this.#geometryOf(copy.supports), this.#ofSupports), stand));
     }
     const used = new Set<Shape | Float32Array | null>(copies.flatMap(({ shape, supports }) => [shape, supports]));
@@ -124,7 +124,7 @@ export class Copies {
   dispose(): void {
     this.set([], null);
     this.#plain.dispose();
-    this.#crowded.dispose();
+    this.#colliding.dispose();
   }
 
   #of(shape: Shape): Posed {

@@ -99,7 +99,7 @@ export class Scene {
   #volume: BuildVolume | null = null;
   /** All copies on the plate; empty for a single model. */
   #copied: readonly Copy[] = [];
-  #isCrowded = false;
+  #isColliding = false;
 
   /** @param context WebGL context of the canvas, with alpha */
   constructor(
@@ -174,8 +174,8 @@ export class Scene {
     const own = copies.find(({ place }) => place === selected);
     this.model.stand.matrix.copy(own === undefined ? new Matrix4() : matrixOf(own));
     this.model.stand.visible = copies.length === 0 || own !== undefined;
-    this.#isCrowded = copies.some(({ isCrowded }) => isCrowded);
-    this.model.facets.material = own?.isCrowded === true ? this.copies.crowded : this.model.material;
+    this.#isColliding = copies.some(({ isColliding }) => isColliding);
+    this.model.facets.material = own?.isColliding === true ? this.copies.colliding : this.model.material;
     this.copies.set(copies, selected);
     this.#fitPlate();
     if (copies.length !== count) this.cameras.reset(this.#size_mm);
@@ -190,7 +190,7 @@ export class Scene {
   #fitPlate(): void {
     const isAlone = this.#copied.length === 0;
     this.plate.fit(isAlone ? this.model.size_mm : [0, 0, this.#size_mm[2]], this.#volume);
-    this.plate.setPlated(!this.#isCrowded, isAlone);
+    this.plate.setPlated(!this.#isColliding, isAlone);
   }
 
   /** @param follow true if the camera follows the model's centre */

@@ -5,7 +5,7 @@ import { shownOf, type Shown } from "./result.js";
 
 export type Rotation = readonly [x: number, y: number, z: number, w: number];
 
-export class Follower {
+export class LivePreview {
   /** Rotation of the model while the user is turning it; otherwise null. */
   turning: Rotation | null = null;
   readonly #slicer: Pick<Slicer, "preview">;

@@ -19,14 +19,14 @@ const listeners = new Map<number, Listener>();
 let last = 0;
 
 /** Registers a function that workers may call while they compute. Its arguments must be cloneable; byte arrays are transferred. */
-export function told<L extends Listener>(listener: L): L {
+export function callback<L extends Listener>(listener: L): L {
   if (!numbers.has(listener)) numbers.set(listener, ++last);
   listeners.set(numbers.get(listener) ?? 0, listener);
   return listener;
 }
 
 /** Unregisters a callback. */
-export function untold(listener: Listener): void {
+export function release(listener: Listener): void {
   listeners.delete(numbers.get(listener) ?? 0);
 }
 
@@ -48,7 +48,7 @@ const tell = (listener: number): ((...what: unknown[]) => void) => {
 };
 
 // Page and worker both import this module.
-Comlink.transferHandlers.set("told", {
+Comlink.transferHandlers.set("callback", {
   canHandle: isListener,
   serialize: (listener: Listener) => [numbers.get(listener) ?? 0, []],
   deserialize: tell,

@@ -30,7 +30,7 @@ export interface BesideHost {
   mispriced(error: SlicerError): void;
 }
 
-export class Beside {
+export class BackgroundQueries {
   mask: Mask | null = null;
   /** Price of the last result by {@link asked}. */
   price: Price | null = null;
