@@ -12,7 +12,7 @@ use std::time::Instant;
 use cusp_slicer::grid::Bins;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::thicknesses::{self, DEFAULT_STEPS};
 use cusp_slicer::plan::tradeoff;
 use cusp_slicer::plan::{Limits, Plan, gradual, greedy, least_sum};

@@ -50,12 +50,12 @@
 // docs.rs shows the feature that an item needs.
 #![cfg_attr(docsrs, feature(doc_cfg))]
 
+mod argsort;
 mod crc;
-mod disjoint;
 pub mod misnamed;
-mod order;
 mod parallel;
 pub mod progress;
+mod union_find;
 
 pub mod filament;
 pub mod format;

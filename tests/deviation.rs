@@ -6,8 +6,8 @@ use crate::common::{assert_near, binary_stl, bins, on_plate, quiet, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::{Backend, Options};
 use cusp_slicer::plan::optimal::{Objective, fill_cheapest};
-use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
 use cusp_slicer::plan::segment::Segment;
+use cusp_slicer::plan::snap_cost::{SnapCosts, SnapPlanes};
 use cusp_slicer::plan::{Limits, optimal};
 use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::facet_bins::FacetBins;
@@ -373,7 +373,7 @@ fn the_planner_finds_the_fewest_layers_though_thicker_ones_may_be_nearer() {
             unit: 1,
             thickness: least as u32..=greatest as u32,
         };
-        let table = fill_cheapest(&errors, &segment, &Preferred::default(), steps, |_| 1);
+        let table = fill_cheapest(&errors, &segment, &SnapCosts::default(), steps, |_| 1);
         let found =
             (table.cost[count] != u64::MAX).then(|| (table.cost[count], table.worst[count]));
         assert_eq!(

@@ -9,7 +9,7 @@ use glam::DVec2;
 /// Facets sorted by their lowest corner, so that a plane visits only those it can cut.
 pub struct DirectSlicer<'a> {
     mesh: &'a Mesh,
-    /// Lowest and highest z of each facet with its index, ascending.
+    /// Lowest and highest z of each facet with its index, argsort.
     facets: Vec<(f32, f32, u32)>,
     /// Extent in z of the tallest facet.
     tallest: f32,

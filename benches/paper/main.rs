@@ -25,7 +25,7 @@ use cusp_slicer::model::read;
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::plan::Limits;
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::{Metric, Shape, Source, steepest};
 use slicer::Slicer;

@@ -184,11 +184,11 @@ fn check_print_file(slicer: &mut Slicer, report: &Report, options: &Options) {
         Err(error) => panic!("{error}"),
     };
     let file = PrintFile::open(&*bytes).expect("what is written can be read");
-    let about = file.about();
-    assert_eq!(about.format, report.print_file.format);
-    assert_eq!(about.pixels, [report.mask.width, report.mask.height]);
+    let metadata = file.metadata();
+    assert_eq!(metadata.format, report.print_file.format);
+    assert_eq!(metadata.pixels, [report.mask.width, report.mask.height]);
     assert_eq!(file.layers().len(), report.layers);
-    let may_be_mirrored = about.is_mirrored_x.is_none() && report.mask.is_mirrored;
+    let may_be_mirrored = metadata.is_mirrored_x.is_none() && report.mask.is_mirrored;
     for (layer, found) in file.layers().iter().enumerate() {
         let z_mm = report.z_mm[layer + 1];
         assert!(
@@ -197,14 +197,14 @@ fn check_print_file(slicer: &mut Slicer, report: &Report, options: &Options) {
             found.z_mm
         );
         let mask = file
-            .mask(layer, about.flips())
+            .mask(layer, metadata.flips())
             .expect("masks can be decoded");
         let shrinks = !options.resin.growth.is_none();
         if options.antialias > 1 || may_be_mirrored || shrinks {
             continue;
         }
         let expected = slicer.mask(layer).expect("there is this layer");
-        let [width, height] = about.pixels;
+        let [width, height] = metadata.pixels;
         assert!(
             mask.bits(width, height) == expected,
             "layer {layer} differs"

@@ -79,9 +79,9 @@ fn read_print_file(bytes: &[u8]) {
         Ok(file) => file,
         Err(error) => return drop(error.to_string()),
     };
-    let about = file.about();
+    let metadata = file.metadata();
     let layers = file.layers().len() as u64;
-    if about.mask_pixels().saturating_mul(layers) > MOST_PIXELS {
+    if metadata.mask_pixels().saturating_mul(layers) > MOST_PIXELS {
         return;
     }
     let mut masks = Vec::new();
@@ -96,8 +96,8 @@ fn read_print_file(bytes: &[u8]) {
         surface(
             file.layers(),
             &masks,
-            about.pixels_from_above(),
-            about.pixel_mm_from_above(),
+            metadata.pixels_from_above(),
+            metadata.pixel_mm_from_above(),
         );
     }
     if draw % 64 == 1 {
@@ -126,7 +126,7 @@ fn convert(file: &PrintFile<'_>, inspection: &Inspection, format: Format) {
     let converted = PrintFile::open(&*bytes).expect("what is written can be read");
     assert_eq!(converted.layers().len(), file.layers().len());
     for layer in 0..file.layers().len() {
-        let mask = converted.mask(layer, converted.about().flips());
+        let mask = converted.mask(layer, converted.metadata().flips());
         mask.expect("what is written can be decoded");
     }
 }

@@ -5,7 +5,7 @@
 use std::io::Write;
 
 use super::fields::{ByteOrder, Fields};
-use super::preview::{Look, rgb565};
+use super::preview::{PreviewScene, rgb565};
 use super::raster::for_each_run;
 use super::{ArchiveError, Canvas, EncodedLayer, Encoder, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
@@ -228,7 +228,7 @@ fn layer_settings(fields: &mut Fields<'_>, job: &PrintJob<'_>, data_bytes: usize
 }
 
 /// A preview: pixels of 15 bits, and runs of at least three.
-fn preview(look: &Look, size: [u32; 2]) -> Vec<u8> {
+fn preview(look: &PreviewScene, size: [u32; 2]) -> Vec<u8> {
     const REPEATS: u16 = 1 << 5;
     const COUNT: u16 = 0x3000;
     const LONGEST: usize = 0xfff;

@@ -6,7 +6,7 @@
 use std::io::Write;
 
 use super::fields::{ByteOrder, Fields};
-use super::preview::{Look, rgb565};
+use super::preview::{PreviewScene, rgb565};
 use super::raster::for_each_run;
 use super::{ArchiveError, Canvas, EncodedLayer, Encoder, Layer, PrintJob, encode_layers};
 use crate::mask::{LayerRuns, Run};
@@ -168,7 +168,7 @@ fn header(job: &PrintJob<'_>, moves: &Moves, order: ByteOrder) -> Vec<u8> {
 }
 
 /// A square preview of 16-bit pixels, big-endian in all files.
-fn preview(look: &Look, side: u32) -> Vec<u8> {
+fn preview(look: &PreviewScene, side: u32) -> Vec<u8> {
     let greys = look.greys([side, side]).into_iter();
     greys.flat_map(|grey| rgb565(grey).to_be_bytes()).collect()
 }

@@ -19,7 +19,7 @@ mod zip;
 use std::collections::BTreeMap;
 use std::io::Write;
 
-pub use preview::{Look, Standing};
+pub use preview::{PlacedMesh, PreviewScene};
 pub use schedule::{SAME_S, Schedule};
 use serde::Serialize;
 use serde_json::value::RawValue;
@@ -271,7 +271,7 @@ pub struct PrintJob<'a> {
     /// The printer, if the job names one.
     pub printer: Option<&'a Printer>,
     /// Draws the model, for previews.
-    pub look: &'a dyn Fn() -> Look,
+    pub look: &'a dyn Fn() -> PreviewScene,
     /// Finds the best uniform layers within tolerance.
     pub best_uniform: &'a dyn Fn() -> Option<UniformLayers>,
     /// Makes an object that describes the whole job, for formats of our own.

@@ -8,7 +8,7 @@ use crate::progress::silent;
 
 /// The model seen from above, as the brightness of each pixel: lit from the left and behind, and brighter higher up.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Look {
+pub struct PreviewScene {
     width: usize,
     height: usize,
     /// Sides of a pixel in x and y, in any unit.
@@ -24,7 +24,7 @@ const LONGEST: u32 = 1024;
 
 /// A model in the picture, and where it stands.
 #[derive(Debug, Clone, Copy)]
-pub struct Standing<'a> {
+pub struct PlacedMesh<'a> {
     /// The mesh from which the rays were sampled.
     pub mesh: &'a Mesh,
     /// Its rays.
@@ -33,7 +33,7 @@ pub struct Standing<'a> {
     pub first_ray: [i64; 2],
 }
 
-impl Standing<'_> {
+impl PlacedMesh<'_> {
     /// Its first column and row, and those after the last.
     fn rays(&self) -> [[i64; 2]; 2] {
         let grid = self.image.grid();
@@ -101,10 +101,10 @@ impl Raster {
     }
 }
 
-impl Look {
+impl PreviewScene {
     /// Looks down along the rays of a mesh.
     pub fn new(mesh: &Mesh, image: RayImage<'_>) -> Self {
-        Self::of_copies(&[Standing {
+        Self::of_copies(&[PlacedMesh {
             mesh,
             image,
             first_ray: [0; 2],
@@ -112,9 +112,9 @@ impl Look {
     }
 
     /// Looks down at several models, of which there must be at least one. Their rays are equally far apart.
-    pub fn of_copies(copies: &[Standing<'_>]) -> Self {
+    pub fn of_copies(copies: &[PlacedMesh<'_>]) -> Self {
         let grid = copies[0].image.grid();
-        let all = copies.iter().map(Standing::rays);
+        let all = copies.iter().map(PlacedMesh::rays);
         let all = all.reduce(|[first, last], [start, end]| {
             [
                 [0, 1].map(|axis| first[axis].min(start[axis])),

@@ -3,11 +3,11 @@
 use super::outline::Outline;
 use super::sheet::bits_at;
 use super::{ArrangeError, Screen};
-use crate::order::sort_by_number;
+use crate::argsort::sort_by_number;
 
 /// A copy to be checked. Its outline is in cells of one pixel: see [`Screen::by_pixels`].
 #[derive(Debug, Clone, Copy)]
-pub struct Standing<'a> {
+pub struct PlacedOutline<'a> {
     /// The model, by its index.
     pub item: usize,
     /// The copy of that model, by its index.
@@ -18,7 +18,7 @@ pub struct Standing<'a> {
     pub offset: [i32; 2],
 }
 
-impl Standing<'_> {
+impl PlacedOutline<'_> {
     /// First column and row of the pixels that are covered, and those after the last.
     fn pixels(&self) -> [[i64; 2]; 2] {
         let end = |end: [i64; 2]| [0, 1].map(|axis| end[axis] + i64::from(self.offset[axis]));
@@ -56,7 +56,7 @@ impl Standing<'_> {
 /// another is named at least once, and there are no more overlaps than copies.
 ///
 /// Cost: the pairs of copies that share columns of pixels, and the pixels of those whose boxes overlap.
-pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<ArrangeError> {
+pub fn problems(screen: &Screen, plate: usize, copies: &[PlacedOutline<'_>]) -> Vec<ArrangeError> {
     let plate_number = plate + 1;
     let outside = copies.iter().filter(|copy| !copy.is_on(screen));
     let mut problems: Vec<_> = outside
@@ -66,7 +66,7 @@ pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<A
             plate_number,
         })
         .collect();
-    let mut by_left: Vec<&Standing<'_>> = copies.iter().collect();
+    let mut by_left: Vec<&PlacedOutline<'_>> = copies.iter().collect();
     sort_by_number(&mut by_left, |copy| copy.pixels()[0][0] as f64);
     let mut named = vec![false; by_left.len()];
     for (place, copy) in by_left.iter().enumerate() {
@@ -92,7 +92,7 @@ pub fn problems(screen: &Screen, plate: usize, copies: &[Standing<'_>]) -> Vec<A
     problems
 }
 
-impl Standing<'_> {
+impl PlacedOutline<'_> {
     fn is_on(&self, screen: &Screen) -> bool {
         let [first, last] = self.pixels();
         // A model that just fits may touch the pixel beyond, by rounding; it lights none there.

@@ -13,10 +13,10 @@ mod sheet;
 
 use glam::DVec2;
 
-use crate::order::sort_by_number;
+use crate::argsort::sort_by_number;
 use crate::parallel;
 pub use arranging::{Arranging, TURN_DEG};
-pub use check::{Standing, problems};
+pub use check::{PlacedOutline, problems};
 pub use error::ArrangeError;
 pub use outline::Outline;
 pub use shadow::shadow_mm2;

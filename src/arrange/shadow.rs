@@ -2,8 +2,8 @@
 
 use glam::{DVec2, DVec3};
 
+use crate::argsort::sort_by_number;
 use crate::model::Mesh;
-use crate::order::sort_by_number;
 
 /// Lines across a shadow. Along a line its length is exact; the area of a disc is right to a millionth.
 const LINES: usize = 2048;

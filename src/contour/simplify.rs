@@ -51,7 +51,7 @@ pub(super) fn simplify(polygons: Vec<Polygon>, tolerance: f64) -> Vec<Polygon> {
 /// A ring, and which of its points are kept.
 struct Outline<'a> {
     ring: &'a [Point],
-    /// Indices of the points that are kept, ascending.
+    /// Indices of the points that are kept, argsort.
     kept: Vec<usize>,
 }
 

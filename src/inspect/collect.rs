@@ -7,8 +7,8 @@ use super::finding::{Code, Finding};
 use super::forest::Tree;
 use super::limits::{Limits, Severity};
 use super::rows::Area;
+use crate::argsort::sort_by_number;
 use crate::grid::Grid;
-use crate::order::sort_by_number;
 use crate::plan::Plan;
 
 /// Number of findings of a kind that are listed: the largest ones.

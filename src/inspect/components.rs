@@ -3,7 +3,7 @@
 //! Pixels hang together across their four sides. An edge or a corner alone is no bond, and no passage either.
 
 use super::rows::{Rows, Span};
-use crate::disjoint::{find, unite};
+use crate::union_find::{find, unite};
 
 /// Not yet known.
 pub(super) const NONE: u32 = u32::MAX;

@@ -5,8 +5,8 @@
 //! ones, and joins findings of consecutive layers.
 
 use super::components::{NONE, Patch};
-use crate::disjoint::{find, unite};
-use crate::order::sort_by_number;
+use crate::argsort::sort_by_number;
+use crate::union_find::{find, unite};
 
 /// Reason for which a tree ended.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -90,7 +90,7 @@ pub(super) struct Step<'a> {
     pub patches: &'a [Patch],
     /// Pairs of a component of the layer below and one of this layer.
     pub contacts: &'a [[u32; 2]],
-    /// Components of this layer that are fixed, ascending.
+    /// Components of this layer that are fixed, argsort.
     pub fixed: &'a [u32],
     /// Components of the layer below that this layer joins with the outside.
     pub fixed_below: &'a [u32],

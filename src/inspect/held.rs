@@ -2,7 +2,7 @@
 
 use super::collect::Frame;
 use super::rows::{Disc, Rows, Span};
-use crate::order::sort_by_number;
+use crate::argsort::sort_by_number;
 
 /// Places where supports touch the model and each other.
 #[derive(Debug, Clone, Default, PartialEq)]

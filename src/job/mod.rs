@@ -5,14 +5,14 @@ mod compare;
 mod convert;
 mod error;
 mod facts;
-#[cfg(not(target_arch = "wasm32"))]
-mod front;
 mod jobs;
 mod loaded;
 mod options;
 mod options_error;
 mod orient;
 mod outputs;
+#[cfg(not(target_arch = "wasm32"))]
+mod pareto_front;
 mod places;
 mod plan;
 mod plates;

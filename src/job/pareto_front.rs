@@ -5,7 +5,7 @@ use super::stages::planning::Planning;
 use super::stages::stage::{Stage, StageProgress, report};
 use super::{Error, FrontPoint, Job, JobOptions, SumAndMaximum};
 use crate::plan::optimal::{self, Objective};
-use crate::plan::preferred::SnapPlanes;
+use crate::plan::snap_cost::SnapPlanes;
 use crate::plan::tradeoff::{self, Goal};
 use crate::plan::{Limits, Plan, PlanError, least_sum};
 use crate::profile::{LayerErrors, Metric, Source};

@@ -6,11 +6,12 @@ use super::stages::parts::{Raster, Resolved, Sampling};
 use super::stages::planned::PlannedModel;
 use super::stages::prepared::Prepared;
 use super::{Error, Job, JobOptions, ModelOptions, Options, Placement, Timings};
+use crate::argsort::sort_by_number;
 use crate::arrange::{
-    ArrangeError, Item, Outline, Place, Screen, Standing, TURN_DEG, arrange, problems, shadow_mm2,
+    ArrangeError, Item, Outline, Place, PlacedOutline, Screen, TURN_DEG, arrange, problems,
+    shadow_mm2,
 };
 use crate::model::{Mesh, Pose, TURNS};
-use crate::order::sort_by_number;
 use crate::parallel;
 
 /// Places of copies, before anything is sampled.
@@ -272,7 +273,7 @@ impl Job {
         for on_plate in places.chunk_by(|a, b| a.plate == b.plate) {
             let standing = on_plate.iter().filter_map(|place| {
                 let kind = kinds.binary_search(&(place.item, place.turns)).ok()?;
-                Some(Standing {
+                Some(PlacedOutline {
                     item: place.item,
                     copy: place.copy,
                     outline: &outlines[kind],

@@ -11,7 +11,9 @@ use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress, ms_since};
 use super::{Error, Report};
 use crate::archive::layer_profile::{self, LayeredModel};
-use crate::archive::{self, Canvas, GROUP, Layer, Look, MaskSource, PrintJob, Screen, Standing};
+use crate::archive::{
+    self, Canvas, GROUP, Layer, MaskSource, PlacedMesh, PreviewScene, PrintJob, Screen,
+};
 use crate::format::Format;
 use crate::mask::{LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp};
 use crate::progress::Progress;
@@ -158,7 +160,7 @@ impl Plate {
             resin_ml: report.resin_ml,
             printer: output.printer.as_deref(),
             best_uniform: &|| planned.best_uniform(),
-            look: &|| look_of(planned, &self.offsets),
+            look: &|| preview_scene(planned, &self.offsets),
             manifest: &|| report.manifest(),
         };
         Ok(archive::write(output.format, &job, writer, progress)?)
@@ -213,13 +215,13 @@ fn seen_from(side: Side, offsets: &[[i32; 2]]) -> Vec<[i32; 2]> {
 }
 
 /// The plate seen from above.
-fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
+fn preview_scene(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> PreviewScene {
     let mut copies = Vec::new();
     for (model, offsets) in planned.models.iter().zip(offsets) {
         let sampled = model.sampled();
         let rays = sampled.sampling.samples.rays();
         let first = sampled.grid.refined(rays).offset_of(&sampled.rays);
-        copies.extend(offsets.iter().map(|offset| Standing {
+        copies.extend(offsets.iter().map(|offset| PlacedMesh {
             mesh: sampled.mesh(),
             image: sampled.image(),
             first_ray: [0, 1].map(|axis| {
@@ -227,7 +229,7 @@ fn look_of(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> Look {
             }),
         }));
     }
-    Look::of_copies(&copies)
+    PreviewScene::of_copies(&copies)
 }
 
 /// The share of the stage of masks that encoding takes, before the file is written.

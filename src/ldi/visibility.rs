@@ -15,7 +15,7 @@ pub struct Visibility {
     /// and no other facet passes through it; or the rays show the same of its whole body. Empty if there is no such
     /// facet.
     pub hidden: Vec<bool>,
-    /// The facets that are not hidden although a ray meets them inside the solid, ascending: they may cross the surface.
+    /// The facets that are not hidden although a ray meets them inside the solid, argsort: they may cross the surface.
     pub partly_inside: Vec<u32>,
     /// True if bodies overlap without hiding whole facets, or a body is inverted. The areas of sections are then not
     /// the sum of the areas that facets enclose.

@@ -4,8 +4,8 @@
 //! moved to each place.
 
 use super::{LayerRuns, MaskCursor, Masks, ReadPlace, Run, RunReader, RunSource, row_bytes};
+use crate::argsort::sort_by_number;
 use crate::grid::Grid;
-use crate::order::sort_by_number;
 use crate::parallel;
 
 /// The masks of a model, and where its copies stand.

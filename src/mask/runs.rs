@@ -349,7 +349,7 @@ impl Edges {
         }
     }
 
-    /// The places in the set, ascending.
+    /// The places in the set, argsort.
     fn places(&self) -> impl Iterator<Item = u32> {
         let filled = self.filled.iter().enumerate();
         let words = filled.flat_map(|(index, &bits)| ones(bits, index));

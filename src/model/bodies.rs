@@ -6,7 +6,7 @@
 use glam::DVec3;
 
 use super::mesh::{Mesh, sixfold_volume};
-use crate::order::ascending;
+use crate::argsort::argsort;
 
 /// The body of each facet, identified by the index of one of the body's vertices. Facets belong to one body if they
 /// share corners, directly or through other facets.
@@ -134,7 +134,7 @@ pub(crate) fn windings_at(
     points: &[DVec3],
     leaves_out: impl Fn(usize, usize) -> bool,
 ) -> Vec<i32> {
-    let order = ascending(points.iter().map(|point| point.x));
+    let order = argsort(points.iter().map(|point| point.x));
     let sorted: Vec<(DVec3, usize)> = order
         .into_iter()
         .map(|place| (points[place], place))

@@ -11,8 +11,8 @@ use glam::DVec3;
 
 use super::minima::Minima;
 use super::overlaps::Overlaps;
+use crate::argsort::argsort;
 use crate::model::FacetLists;
-use crate::order::ascending;
 
 /// Cups count from this area on, in mm², as in the checks.
 const CUP_MM2: f64 = 1.0;
@@ -167,7 +167,7 @@ impl Basins {
         let heights_mm = minima
             .iter()
             .map(|&vertex| f64::from(along.heights_mm[vertex as usize]));
-        let order = ascending(heights_mm).into_iter();
+        let order = argsort(heights_mm).into_iter();
         order.map(|place| minima[place]).collect()
     }
 

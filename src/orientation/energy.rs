@@ -7,7 +7,7 @@ use glam::DVec3;
 
 use super::directions::spacing;
 use super::{Candidate, Cost, Exclusion, Metrics, Quality, Scale, SearchOptions};
-use crate::order::ascending;
+use crate::argsort::argsort;
 
 /// Maximum number of refinements.
 const MINIMA: usize = 5;
@@ -97,7 +97,7 @@ pub fn minima(candidates: &[Candidate], search: &SearchOptions) -> Vec<usize> {
     let reach = NEIGHBOURS * spacing(search.directions);
     // Neighbours are close in z, so only candidates in that range are compared.
     let z_of = |index: usize| candidates[index].direction[2];
-    let mut order = ascending((0..candidates.len()).map(z_of));
+    let mut order = argsort((0..candidates.len()).map(z_of));
     let energy_of = |index: usize| candidates[index].energy;
     order.retain(|&index| energy_of(index).is_some());
     let place = |index: usize| DVec3::from_array(candidates[index].direction);
@@ -117,7 +117,7 @@ pub fn minima(candidates: &[Candidate], search: &SearchOptions) -> Vec<usize> {
     }
     let minima: Vec<usize> = (0..minima.len()).filter(|&index| minima[index]).collect();
     let energy = |&index: &usize| energy_of(index).unwrap_or(f64::INFINITY);
-    let best = ascending(minima.iter().map(energy)).into_iter();
+    let best = argsort(minima.iter().map(energy)).into_iter();
     best.take(MINIMA).map(|place| minima[place]).collect()
 }
 
@@ -127,7 +127,7 @@ pub(super) fn best(refined: &[Candidate]) -> Vec<Candidate> {
         .iter()
         .map(|candidate| candidate.energy.unwrap_or(f64::INFINITY));
     let mut best: Vec<Candidate> = Vec::with_capacity(BEST);
-    for place in ascending(energies) {
+    for place in argsort(energies) {
         let candidate = &refined[place];
         let direction = DVec3::from_array(candidate.direction);
         let is_new =

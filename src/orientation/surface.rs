@@ -7,9 +7,9 @@ use super::directions::{about_z, lattice, unit, upright};
 use super::extents::Points;
 use super::supports::Estimate;
 use super::{Exclusion, Metrics};
+use crate::argsort::argsort;
 use crate::grid::Bins;
 use crate::model::{Bounds, Mesh, rotation_matrix};
-use crate::order::ascending;
 use crate::plan::Plan;
 use crate::prepare::SupportProfile;
 use crate::profile::facet_bins::FacetBins;
@@ -171,7 +171,7 @@ impl Surface {
     /// Normals of the largest flats that are not perpendicular to an axis, largest first. Parallel flats count as one.
     fn flats(&self) -> Vec<DVec3> {
         let mut flats: Vec<(DVec3, f64)> = Vec::new();
-        for facet in ascending(self.areas_mm2.iter().map(|&area_mm2| f64::from(-area_mm2))) {
+        for facet in argsort(self.areas_mm2.iter().map(|&area_mm2| f64::from(-area_mm2))) {
             let (normal, area_mm2) = (self.normal(facet), f64::from(self.areas_mm2[facet]));
             let is_same = |(flat, _): &(DVec3, f64)| flat.dot(normal).abs() >= SAME_FLAT;
             match flats.iter().position(is_same) {
@@ -184,7 +184,7 @@ impl Surface {
         flats.retain(|&(normal, area_mm2)| {
             area_mm2 >= FLAT_PART * self.total_mm2 && !is_axis(normal)
         });
-        let largest = ascending(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
+        let largest = argsort(flats.iter().map(|(_, area_mm2)| -area_mm2)).into_iter();
         largest.take(FLATS).map(|flat| flats[flat].0).collect()
     }
 
@@ -426,5 +426,5 @@ fn neighbours_together(mesh: &Mesh) -> Vec<usize> {
         let cell = ((a + b + c) / 3.0 - bounds.min) * cells;
         f64::from(spread(cell.x) | spread(cell.y) << 1 | spread(cell.z) << 2)
     });
-    ascending(keys)
+    argsort(keys)
 }

@@ -6,8 +6,8 @@
 use std::collections::VecDeque;
 
 use super::optimal::{self, Objective, layers_above, tops};
-use super::preferred::SnapPlanes;
 use super::segment::{Segment, Segments, boundaries_below};
+use super::snap_cost::SnapPlanes;
 use super::tradeoff::least_steps;
 use super::{Limits, Plan, PlanError};
 use crate::grid::Bins;

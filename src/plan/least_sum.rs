@@ -6,8 +6,8 @@
 //! breaks ties decides: the result is then the smallest maximum error for every number of layers.
 
 use super::optimal::{self, Objective, layers_above, tops};
-use super::preferred::SnapPlanes;
 use super::segment::{Segment, Segments, boundaries_below};
+use super::snap_cost::SnapPlanes;
 use super::{Limits, Plan, PlanError};
 use crate::profile::{LayerErrors, Reach};
 

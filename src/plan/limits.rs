@@ -5,10 +5,10 @@ use std::ops::RangeInclusive;
 use serde::{Deserialize, Serialize};
 
 use super::PlanError;
-use crate::disjoint;
+use crate::argsort::argsort;
 use crate::grid::Bins;
-use crate::order::ascending;
 use crate::quantity::Quantity;
+use crate::union_find;
 
 /// The limits that every plan must respect.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -58,8 +58,8 @@ impl HeightRange {
         ends.dedup();
         let covering = |order: Vec<usize>| first_to_cover(&ends, ranges, order);
         // Those that demand most come first.
-        let thickest_first = ascending(ranges.iter().map(|range| -range.layer_min_mm));
-        let thinnest_first = ascending(ranges.iter().map(|range| range.layer_max_mm));
+        let thickest_first = argsort(ranges.iter().map(|range| -range.layer_min_mm));
+        let thinnest_first = argsort(ranges.iter().map(|range| range.layer_max_mm));
         let limits = covering(thickest_first)
             .into_iter()
             .zip(covering(thinnest_first));
@@ -87,7 +87,7 @@ fn first_to_cover(ends: &[f64], ranges: &[HeightRange], order: Vec<usize>) -> Ve
         let to = interval_at(range.to_mm);
         let mut interval = interval_at(range.from_mm);
         loop {
-            interval = disjoint::find(&mut uncovered, interval as u32) as usize;
+            interval = union_find::find(&mut uncovered, interval as u32) as usize;
             if interval >= to {
                 break;
             }

@@ -2,8 +2,8 @@
 //! thickness, so the cost of a layer depends on the number below it.
 
 use super::optimal::{Stuck, Table, layers_above, tops};
-use super::preferred::{ByHeight, Preferred};
 use super::segment::{Segment, boundaries_below};
+use super::snap_cost::{ByHeight, SnapCosts};
 use crate::profile::{LayerErrors, Reach};
 use crate::resin::Resin;
 
@@ -47,7 +47,7 @@ pub(super) fn quickest(
         }
         let mut tables = Tables::new(segment, &starts);
         let thinnest_us = times_us[*segment.thickness.start() as usize];
-        let preferred = Preferred::within(segment, snap_planes, thinnest_us);
+        let preferred = SnapCosts::within(segment, snap_planes, thinnest_us);
         tables.fill(errors, segment, &preferred, tolerance, bottom_us, &times_us);
         starts = tables.by_layers.iter().map(at_top).collect();
         let reached = tables.by_layers.iter().map(Table::highest_reached).max();
@@ -101,7 +101,7 @@ impl Tables {
         &mut self,
         errors: &LayerErrors,
         segment: &Segment,
-        preferred: &Preferred,
+        preferred: &SnapCosts,
         tolerance: u64,
         bottom_us: u64,
         times_us: &[u64],

@@ -2,18 +2,18 @@
 //!
 //! A planner sees limits and the errors of layers, and nothing else of the model.
 
-mod by_layers;
-mod few;
+mod breadth_first;
 pub mod gradual;
 pub mod greedy;
 pub mod least_sum;
 mod limits;
+pub(crate) mod minimum_time;
 pub mod optimal;
-pub mod preferred;
 mod queue;
 pub mod segment;
+pub mod snap_cost;
+mod thickness_subset;
 pub mod thicknesses;
-pub(crate) mod timed;
 pub mod tradeoff;
 pub mod uniform;
 
@@ -162,7 +162,7 @@ pub enum PlanError {
         model_number: Option<usize>,
         /// The tolerance asked for, in the metric's unit.
         tolerance: f64,
-        /// The thicknesses, ascending.
+        /// The thicknesses, argsort.
         thicknesses_mm: Vec<f64>,
         /// The least tolerance for which there is a plan, rounded up to six digits; absent if none is enough.
         least_tolerance: Option<f64>,

@@ -1,9 +1,9 @@
 //! The fewest layers within tolerance, or the shortest print time, by dynamic programming (Procedure 1).
 
-use super::preferred::{ByHeight, Preferred, SnapPlanes};
 use super::queue::{Candidate, Queue};
 use super::segment::{Segment, Segments, boundaries_below};
-use super::{Limits, Plan, PlanError, by_layers, timed, tradeoff};
+use super::snap_cost::{ByHeight, SnapCosts, SnapPlanes};
+use super::{Limits, Plan, PlanError, breadth_first, minimum_time, tradeoff};
 use crate::profile::{LayerErrors, LayersAbove, Reach};
 use crate::resin::Resin;
 
@@ -86,7 +86,9 @@ pub fn within(
     let snap_planes = &snap_planes.by_height();
     let filled = match objective {
         Objective::Layers => fewest(errors, &segments, snap_planes, tolerance),
-        Objective::Time(resin) => timed::quickest(errors, &segments, snap_planes, resin, tolerance),
+        Objective::Time(resin) => {
+            minimum_time::quickest(errors, &segments, snap_planes, resin, tolerance)
+        }
     };
     Ok(match filled {
         Ok(boundaries) => {
@@ -135,11 +137,11 @@ fn fewest(
 ) -> Result<Vec<u32>, Stuck> {
     let mut boundaries = boundaries_below(segments);
     for (index, segment) in segments.iter().enumerate() {
-        let preferred = Preferred::within(segment, snap_planes, 1);
+        let preferred = SnapCosts::within(segment, snap_planes, 1);
         // With snap planes, a plan of more layers may cost less.
         if preferred.is_empty()
             && let LayerErrors::Sum(errors) = errors
-            && let Some(planes) = by_layers::fewest(errors, segment, tolerance)
+            && let Some(planes) = breadth_first::fewest(errors, segment, tolerance)
         {
             boundaries.extend(planes.into_iter().map(|plane| segment.boundary(plane)));
             continue;
@@ -260,7 +262,7 @@ impl Table {
 pub fn fill_fewest(
     error_between: impl Fn(u32, u32) -> u64,
     segment: &Segment,
-    preferred: &Preferred,
+    preferred: &SnapCosts,
     tolerance: u64,
 ) -> Table {
     let itself = |boundary| boundary;
@@ -272,7 +274,7 @@ fn fill_fewest_by<Mark: Copy>(
     mark_of: impl Fn(u32) -> Mark,
     error_between: impl Fn(Mark, Mark) -> u64,
     segment: &Segment,
-    preferred: &Preferred,
+    preferred: &SnapCosts,
     tolerance: u64,
 ) -> Table {
     let mut table = Table::new(segment.units);
@@ -309,7 +311,7 @@ fn fill_fewest_by<Mark: Copy>(
 pub fn fill_cheapest(
     errors: &LayerErrors,
     segment: &Segment,
-    preferred: &Preferred,
+    preferred: &SnapCosts,
     tolerance: u64,
     cost_of: impl Fn(u32) -> u64,
 ) -> Table {

@@ -3,8 +3,8 @@
 use std::ops::RangeInclusive;
 
 use super::{Limits, PlanError};
+use crate::argsort::{argsort, sort_by_number};
 use crate::grid::Bins;
-use crate::order::{ascending, sort_by_number};
 
 /// A height range between two mandatory planes, to be filled with layers.
 ///
@@ -151,7 +151,7 @@ impl Layout {
             thickness,
             ranges: Vec::new(),
         };
-        for place in ascending(limits.ranges.iter().map(|range| range.from_mm)) {
+        for place in argsort(limits.ranges.iter().map(|range| range.from_mm)) {
             let range = &limits.ranges[place];
             let (from_mm, to_mm) = (range.from_mm, range.to_mm);
             let is_ordered = from_mm >= 0.0 && to_mm > from_mm;

@@ -1,7 +1,7 @@
 //! Planes that a plan prefers, and the cost of omitting one.
 
 use super::segment::Segment;
-use crate::order::ascending;
+use crate::argsort::argsort;
 
 /// Heights that deserve a plane.
 #[derive(Debug, Clone, Copy)]
@@ -30,7 +30,7 @@ impl SnapPlanes<'_> {
 
     /// In the order in which segments meet them.
     pub(super) fn by_height(&self) -> ByHeight {
-        let order = ascending(self.planes.iter().map(|&plane| f64::from(plane))).into_iter();
+        let order = argsort(self.planes.iter().map(|&plane| f64::from(plane))).into_iter();
         ByHeight {
             planes: order.map(|rank| (self.planes[rank], rank as u64)).collect(),
             price: self.price,
@@ -61,12 +61,12 @@ impl ByHeight {
 
 /// The snap planes within a segment.
 #[derive(Debug, Clone, Default)]
-pub struct Preferred {
+pub struct SnapCosts {
     /// For each plane of the segment, the price and the weight of all snap planes from it upward; empty if there are none.
     from: Vec<[u64; 2]>,
 }
 
-impl Preferred {
+impl SnapCosts {
     /// The snap planes within `segment`, each at this price. Of plans of the same cost the one that does without fewer is better; of
     /// those with as many, the one that keeps the more important.
     pub(super) fn within(segment: &Segment, snap_planes: &ByHeight, layer_price: u64) -> Self {

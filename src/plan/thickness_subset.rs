@@ -30,7 +30,7 @@ type Node = Vec<(usize, usize)>;
 /// A model as the search sees it.
 pub(super) struct Search {
     bins: Bins,
-    /// All thicknesses that layers may have in any segment, in units, ascending.
+    /// All thicknesses that layers may have in any segment, in units, argsort.
     thicknesses: Vec<u32>,
     parts: Vec<Part>,
     steps: u64,
@@ -77,7 +77,7 @@ impl Search {
         }
     }
 
-    /// The best set of at most `count` thicknesses, ascending and in units, and a proven lower bound of the layers; `None` if none
+    /// The best set of at most `count` thicknesses, argsort and in units, and a proven lower bound of the layers; `None` if none
     /// has a plan. It ends early after `most_steps`, but not before it has found a set.
     ///
     /// # Errors
@@ -228,7 +228,7 @@ fn plus(a: i32, b: i32) -> i32 {
     (a + b).min(NO_PLAN)
 }
 
-/// The places in any interval of a node, ascending.
+/// The places in any interval of a node, argsort.
 fn union(node: &[(usize, usize)]) -> Vec<usize> {
     let mut places: Vec<usize> = node.iter().flat_map(|&(low, high)| low..=high).collect();
     places.sort_unstable();

@@ -7,10 +7,10 @@
 //! within tolerance, the lower of two equally near. It moves by at most half the least thickness of the set, or half the minimum
 //! thickness if that is more. Mandatory planes do not move.
 
-use super::few::Search;
 use super::optimal::{self, Objective, Table, layers_above};
-use super::preferred::SnapPlanes;
 use super::segment::{Segment, Segments, boundaries_below};
+use super::snap_cost::SnapPlanes;
+use super::thickness_subset::Search;
 use super::tradeoff::{least_steps, round_up};
 use super::{Limits, Plan, PlanError};
 use crate::grid::Bins;
@@ -75,7 +75,7 @@ pub fn of(
 pub struct FewThicknesses {
     /// The plan.
     pub plan: Plan,
-    /// The thicknesses that its layers have, in millimetres, ascending.
+    /// The thicknesses that its layers have, in millimetres, argsort.
     pub thicknesses_mm: Vec<f64>,
     /// A proven lower bound of the number of layers. It equals that of the plan unless the search ended early.
     pub least_layers: usize,
@@ -135,7 +135,7 @@ pub fn at_most(
     )))
 }
 
-/// The thicknesses of a plan in bins, ascending, without that of a fixed first layer.
+/// The thicknesses of a plan in bins, argsort, without that of a fixed first layer.
 fn distinct(plan: &Plan) -> Vec<u32> {
     let layers = plan.covered().windows(2);
     let mut thicknesses: Vec<u32> = layers.map(|layer| layer[1] - layer[0]).collect();

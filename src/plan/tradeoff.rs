@@ -3,7 +3,7 @@
 use serde::Serialize;
 
 use super::optimal::{self, Objective};
-use super::preferred::SnapPlanes;
+use super::snap_cost::SnapPlanes;
 use super::{Limits, Plan, PlanError};
 use crate::profile::LayerErrors;
 use crate::resin::Resin;

@@ -4,7 +4,7 @@
 //! joins an older part. So each basin needs a hole at its lowest point, unless it is too small to act as a cup when it
 //! joins another.
 
-use crate::disjoint::find;
+use crate::union_find::find;
 
 /// A basin that is smaller than this where it joins another needs no hole of its own.
 const LEAST_MM2: f32 = 1.0;

@@ -7,7 +7,7 @@
 use glam::Vec3;
 
 use super::columns::Columns;
-use crate::disjoint::{find, unite};
+use crate::union_find::{find, unite};
 
 /// A cavity.
 #[derive(Debug, Clone, Copy, PartialEq)]

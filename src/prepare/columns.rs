@@ -15,7 +15,7 @@ pub(super) const MARGIN: usize = 1;
 /// A distance that is longer than any that matters. Its square is finite in single precision.
 const FAR_MM: f32 = 1e9;
 
-/// Height ranges of each column, ascending and apart, row by row.
+/// Height ranges of each column, argsort and apart, row by row.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Columns {
     /// Columns of a row.

@@ -4,9 +4,9 @@ use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
-use super::nets::Lattice;
 use super::round::{circle, rim};
 use super::shell::Shell;
+use super::surface_nets::Lattice;
 use crate::model::Bounds;
 
 /// A drain hole.

@@ -3,7 +3,7 @@
 use super::cavities::Cavities;
 use super::columns::Columns;
 use super::hollow::core;
-use super::nets::Lattice;
+use super::surface_nets::Lattice;
 use crate::ldi::LdiError;
 use crate::progress::Progress;
 

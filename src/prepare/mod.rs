@@ -11,13 +11,13 @@ mod hollow;
 mod joined;
 mod lattice;
 mod lengths;
-mod nets;
 mod pits;
 mod plug;
 mod round;
 mod shell;
 mod support;
 mod surface;
+mod surface_nets;
 
 pub use drain::{AutoDrain, Drain};
 pub(crate) use hollow::LEAST_WALL_MM;

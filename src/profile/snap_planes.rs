@@ -4,8 +4,8 @@
 use super::cusp::density_of;
 use super::facet_bins::Flat;
 use super::steepest::NO_SURFACE;
+use crate::argsort::{argsort, sort_by_number};
 use crate::grid::Bins;
-use crate::order::{ascending, sort_by_number};
 
 /// A change is sharp if the cusp height densities of neighbouring bins differ by more than this.
 pub const SHARP: f32 = 0.5;
@@ -42,7 +42,7 @@ pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> 
 
 /// The largest worth of each boundary, in ascending order of boundaries.
 fn largest(boundaries: &[(u32, f64)]) -> Vec<(u32, f64)> {
-    let order = ascending(boundaries.iter().map(|&(_, worth)| -worth));
+    let order = argsort(boundaries.iter().map(|&(_, worth)| -worth));
     let mut largest: Vec<(u32, f64)> = order.into_iter().map(|place| boundaries[place]).collect();
     sort_by_number(&mut largest, |&(boundary, _)| f64::from(boundary));
     largest.dedup_by_key(|&mut (boundary, _)| boundary);
@@ -69,13 +69,13 @@ fn sharp_changes(steepest: &[f32], bins: Bins) -> Vec<(u32, f64)> {
 
 /// Boundaries in descending order of their worth, of equals the lowest first. They come in ascending order.
 fn largest_first(boundaries: &[(u32, f64)]) -> Vec<u32> {
-    let order = ascending(boundaries.iter().map(|&(_, worth)| -worth));
+    let order = argsort(boundaries.iter().map(|&(_, worth)| -worth));
     order.into_iter().map(|place| boundaries[place].0).collect()
 }
 
 /// The boundaries nearest to horizontal facets, in ascending order, and the total area of those facets in mm².
 fn levels(flats: &[Flat], bins: Bins) -> Vec<(u32, f64)> {
-    let order = ascending(flats.iter().map(|flat| f64::from(flat.boundary)));
+    let order = argsort(flats.iter().map(|flat| f64::from(flat.boundary)));
     let flats: Vec<Flat> = order.into_iter().map(|place| flats[place]).collect();
     flats
         .chunk_by(|a, b| a.boundary == b.boundary)

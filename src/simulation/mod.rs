@@ -131,7 +131,7 @@ pub fn simulate(
 ) -> Result<Simulation, SimulationError> {
     report(progress, 0.0)?;
     let file = PrintFile::open(print_file)?;
-    let mut flips = file.about().flips();
+    let mut flips = file.metadata().flips();
     if let Some(is_mirrored) = knowledge.is_mirrored {
         flips.mirror_x = is_mirrored;
     }
@@ -166,7 +166,7 @@ pub fn simulate(
 
     let deviation = |tallies: &[Tally]| Deviation::of(tallies, &printed.z_mm);
     Ok(Simulation {
-        format: file.about().format,
+        format: file.metadata().format,
         layers: printed.layers(),
         height_mm: printed.z_mm[printed.layers()],
         copies: copies.len(),

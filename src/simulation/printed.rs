@@ -42,7 +42,7 @@ impl Printed {
         share: [f64; 2],
     ) -> Result<Self, SimulationError> {
         let z_mm = boundaries(file)?;
-        let (about, layers) = (file.about(), file.layers().len());
+        let (metadata, layers) = (file.metadata(), file.layers().len());
         let mut masks = Vec::with_capacity(layers);
         parallel::map_in_groups(
             0..layers,
@@ -57,8 +57,8 @@ impl Printed {
         if masks.iter().all(|mask| mask.rows().is_empty()) {
             return Err(SimulationError::AllBlack);
         }
-        let [width, height] = about.pixels_from_above();
-        let pitch = DVec2::from(about.pixel_mm_from_above());
+        let [width, height] = metadata.pixels_from_above();
+        let pitch = DVec2::from(metadata.pixel_mm_from_above());
         Ok(Self {
             pixels: [width, height],
             pitch,

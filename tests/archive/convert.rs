@@ -70,7 +70,7 @@ fn every_format_becomes_every_other() {
                 let name = format!("{from:?} to {format:?}, {antialias}");
                 let (converted, losses) = convert(bytes, &to(format)).unwrap();
                 let file = PrintFile::open(&*converted).unwrap();
-                assert_eq!(file.about().format, format, "{name}");
+                assert_eq!(file.metadata().format, format, "{name}");
                 assert_eq!(file.layers().len(), report.layers, "{name}");
                 for (index, layer) in file.layers().iter().enumerate() {
                     assert_near(layer.z_mm, report.z_mm[index + 1], 1e-5);
@@ -94,7 +94,7 @@ fn every_format_becomes_every_other() {
                 // A printer of one's own is not known by the name in its files.
                 let says = PrintFile::open(&**bytes)
                     .unwrap()
-                    .about()
+                    .metadata()
                     .is_mirrored_x
                     .is_some();
                 assert_eq!(losses.contains(&Loss::Mirroring), !says, "{name}");
@@ -136,20 +136,20 @@ fn a_file_becomes_itself() {
             PrintFile::open(&*converted).unwrap(),
         );
         assert_eq!(old.layers(), new.layers());
-        let about = |file: &PrintFile<'_>| {
-            let mut about = file.about().clone();
-            about.print_time_s = about.print_time_s.map(f64::round);
-            about
+        let metadata = |file: &PrintFile<'_>| {
+            let mut metadata = file.metadata().clone();
+            metadata.print_time_s = metadata.print_time_s.map(f64::round);
+            metadata
         };
-        assert_eq!(about(&old), about(&new));
+        assert_eq!(metadata(&old), metadata(&new));
         // By its zip of masks, too, which states no moves: those of the default resin.
         let (from_zip, losses) = convert(&files[0], &Target::default()).unwrap();
         assert_eq!(losses, []);
         let from_zip = PrintFile::open(&*from_zip).unwrap();
-        assert_eq!(from_zip.about().format, Format::Goo);
+        assert_eq!(from_zip.metadata().format, Format::Goo);
         assert_eq!(from_zip.layers(), old.layers());
         assert_near(
-            from_zip.about().print_time_s.unwrap(),
+            from_zip.metadata().print_time_s.unwrap(),
             report.print_time_s,
             1.0,
         );
@@ -190,10 +190,10 @@ fn masks_are_mirrored_on_request_and_stay_the_same_from_above() {
     };
     let (converted, _) = convert(&files[0], &target).unwrap();
     let new = PrintFile::open(&*converted).unwrap();
-    assert_eq!(new.about().is_mirrored_x, Some(false));
+    assert_eq!(new.metadata().is_mirrored_x, Some(false));
     let mut are_different = false;
     for layer in 0..report.layers {
-        let seen = |file: &PrintFile<'_>| file.mask(layer, file.about().flips()).unwrap();
+        let seen = |file: &PrintFile<'_>| file.mask(layer, file.metadata().flips()).unwrap();
         assert_eq!(seen(&old), seen(&new), "layer {layer}");
         let stored = |file: &PrintFile<'_>| runs(file, layer, |grey| grey);
         are_different |= stored(&old) != stored(&new);
@@ -241,13 +241,13 @@ fn masks_on_their_side_are_set_upright() {
         _ => contents,
     });
     let old = PrintFile::open(&*theirs).unwrap();
-    assert!(old.about().is_turned);
+    assert!(old.metadata().is_turned);
     let (converted, _) = convert(&theirs, &to(Format::Goo)).unwrap();
     let new = PrintFile::open(&*converted).unwrap();
-    assert_eq!(new.about().pixels, [161, 77]);
-    assert_near(new.about().pixel_mm[0], old.about().pixel_mm[1], 1e-6);
+    assert_eq!(new.metadata().pixels, [161, 77]);
+    assert_near(new.metadata().pixel_mm[0], old.metadata().pixel_mm[1], 1e-6);
     for layer in 0..old.layers().len() {
-        let seen = |file: &PrintFile<'_>| file.mask(layer, file.about().flips()).unwrap();
+        let seen = |file: &PrintFile<'_>| file.mask(layer, file.metadata().flips()).unwrap();
         assert_eq!(seen(&old), seen(&new), "layer {layer}");
     }
 }

@@ -70,7 +70,7 @@ fn assert_uniform(file: &[u8], layer_mm: f64, name: &str) {
             assert_near(layer.z_mm, layer_mm * (below + 1) as f64, room_mm);
         }
         if FLAGGED.contains(&format) {
-            let counts = converted.about().uses_layer_values;
+            let counts = converted.metadata().uses_layer_values;
             assert_eq!(counts, Some(false), "{name} to {format:?}");
         }
     }
@@ -188,12 +188,12 @@ fn a_fade_is_carried_over() {
         }
         let (converted, _) = convert(&file, &to(format)).unwrap();
         let print = PrintFile::open(&*converted).unwrap();
-        let about = print.about();
+        let metadata = print.metadata();
         if format == Format::Sl1 || FLAGGED.contains(&format) {
-            assert_eq!(about.transition_layers, Some(FADED as u32), "{name}");
-            assert_near(about.exposure_s.unwrap(), USUAL_S, 1e-6);
-            assert_near(about.bottom_exposure_s.unwrap(), BOTTOM_S, 1e-6);
-            assert_eq!(about.bottom_layers, Some(3), "{name}");
+            assert_eq!(metadata.transition_layers, Some(FADED as u32), "{name}");
+            assert_near(metadata.exposure_s.unwrap(), USUAL_S, 1e-6);
+            assert_near(metadata.bottom_exposure_s.unwrap(), BOTTOM_S, 1e-6);
+            assert_eq!(metadata.bottom_layers, Some(3), "{name}");
         }
         if format != Format::Sl1 {
             for (place, layer) in print.layers().iter().enumerate() {
@@ -201,14 +201,18 @@ fn a_fade_is_carried_over() {
             }
         }
         if FLAGGED.contains(&format) {
-            assert_eq!(about.uses_layer_values, Some(false), "{name}");
+            assert_eq!(metadata.uses_layer_values, Some(false), "{name}");
         }
         // And back: three numbers again, whether the header or the layers say them.
         let (back, _) = convert(&converted, &to(Format::Sl1)).unwrap();
         let back = PrintFile::open(&*back).unwrap();
-        assert_eq!(back.about().transition_layers, Some(FADED as u32), "{name}");
-        assert_near(back.about().exposure_s.unwrap(), USUAL_S, 1e-3);
-        assert_near(back.about().bottom_exposure_s.unwrap(), BOTTOM_S, 1e-3);
+        assert_eq!(
+            back.metadata().transition_layers,
+            Some(FADED as u32),
+            "{name}"
+        );
+        assert_near(back.metadata().exposure_s.unwrap(), USUAL_S, 1e-3);
+        assert_near(back.metadata().bottom_exposure_s.unwrap(), BOTTOM_S, 1e-3);
     }
 }
 
@@ -223,13 +227,13 @@ fn exposures_that_are_no_fade_are_refused_or_kept() {
     }
     let (converted, _) = convert(&file, &to(Format::Ctb)).unwrap();
     let converted = PrintFile::open(&*converted).unwrap();
-    assert_eq!(converted.about().uses_layer_values, Some(true));
+    assert_eq!(converted.metadata().uses_layer_values, Some(true));
     assert_eq!(converted.layers()[10].exposure_s, Some(7.0));
     // If the header says that they do not count, the printer takes those of the header.
     file[195_445] = 0;
     let (converted, _) = convert(&file, &to(Format::Ctb)).unwrap();
     let converted = PrintFile::open(&*converted).unwrap();
-    assert_eq!(converted.about().uses_layer_values, Some(false));
+    assert_eq!(converted.metadata().uses_layer_values, Some(false));
     assert_eq!(
         converted.layers()[10].exposure_s,
         converted.layers()[9].exposure_s

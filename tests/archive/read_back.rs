@@ -62,17 +62,17 @@ pub fn kept(format: Format, grey: u8) -> u8 {
 
 fn check(bytes: &[u8], png: &PrintFile<'_>, format: Format, report: &Report, name: &str) {
     let file = PrintFile::open(bytes).unwrap();
-    let about = file.about();
-    assert_eq!(about.format, format, "{name}");
+    let metadata = file.metadata();
+    assert_eq!(metadata.format, format, "{name}");
     assert_eq!(
-        about.pixels,
+        metadata.pixels,
         [report.mask.width, report.mask.height],
         "{name}"
     );
-    assert_near(about.pixel_mm[0], report.mask.pitch_mm, 1e-5);
-    assert_near(about.pixel_mm[1], report.mask.pitch_y_mm, 1e-5);
+    assert_near(metadata.pixel_mm[0], report.mask.pitch_mm, 1e-5);
+    assert_near(metadata.pixel_mm[1], report.mask.pitch_y_mm, 1e-5);
     assert_eq!(file.layers().len(), report.layers, "{name}");
-    if let Some(says) = about.is_mirrored_x {
+    if let Some(says) = metadata.is_mirrored_x {
         assert_eq!(says, report.mask.is_mirrored, "{name}");
     }
     let mut expected_black = 0;
@@ -194,7 +194,7 @@ fn every_version_and_byte_order_can_be_read() {
         check(&files[1], &png, Format::PhotonWorkshop, &report, "ball");
         let file = PrintFile::open(&*files[1]).unwrap();
         assert_eq!(
-            file.about().version.as_deref(),
+            file.metadata().version.as_deref(),
             Some(version.to_string().as_str())
         );
     }
@@ -217,7 +217,7 @@ fn every_version_and_byte_order_can_be_read() {
         };
         assert_near(file.layers()[3].lift_mm.unwrap(), lift_mm, 1e-6);
         // Values of single layers are left out where all are alike.
-        assert_eq!(file.about().uses_layer_values, Some(false));
+        assert_eq!(file.metadata().uses_layer_values, Some(false));
     }
 }
 
@@ -239,10 +239,10 @@ fn layers_of_their_own_count_in_the_formats_that_have_a_flag() {
     for file in &files {
         let file = PrintFile::open(&**file).unwrap();
         assert_eq!(
-            file.about().uses_layer_values,
+            file.metadata().uses_layer_values,
             Some(true),
             "{:?}",
-            file.about().format
+            file.metadata().format
         );
     }
 }

@@ -74,7 +74,7 @@ fn by_scipy(masks: &Masks, plan: &Plan, limits: &Limits) -> Result<Found, Failed
     let folder = tempfile::TempDir::new()?;
     let [job, lit] = ["job.json", "lit.raw"].map(|name| folder.path().join(name));
     let bins: Vec<u32> = plan.boundaries.windows(2).map(|it| it[1] - it[0]).collect();
-    let about = json!({
+    let metadata = json!({
         "shape": [masks.layers(), masks.grid.height as usize, masks.grid.width as usize],
         "bins": bins,
         "bin_mm": plan.bins.size_mm,
@@ -83,7 +83,7 @@ fn by_scipy(masks: &Masks, plan: &Plan, limits: &Limits) -> Result<Found, Failed
         "pad": PAD,
         "limits": limits,
     });
-    fs::write(&job, about.to_string())?;
+    fs::write(&job, metadata.to_string())?;
     fs::write(&lit, pixels_of(masks))?;
     let mut command = Command::new(python());
     let output = succeeds(command.arg(SCRIPT).args([job, lit]))?;

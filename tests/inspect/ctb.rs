@@ -102,24 +102,30 @@ fn a_file_says_what_its_tables_say() {
     for version in 2..=5 {
         let file = ctb(version, 0, &[(0.05, white()), (0.15, white())]);
         let file = open(&file);
-        let about = file.about();
-        assert_eq!(about.format, Format::Ctb);
-        assert_eq!(about.version, Some(version.to_string()));
-        assert_eq!(about.printer.as_deref(), Some("Some Printer"));
+        let metadata = file.metadata();
+        assert_eq!(metadata.format, Format::Ctb);
+        assert_eq!(metadata.version, Some(version.to_string()));
+        assert_eq!(metadata.printer.as_deref(), Some("Some Printer"));
         let resin = (version == 5).then_some("ABS Grey");
-        assert_eq!(about.resin.as_deref(), resin);
-        assert_eq!((about.pixels, about.pixel_mm), ([5, 3], [0.04, 0.04]));
-        assert_eq!(about.plate_mm, [0.2, 0.12, 160.0].map(Some));
-        assert_eq!(about.is_mirrored_x, Some(true));
-        assert_eq!((about.layer_mm, about.exposure_s), (Some(0.05), Some(2.5)));
-        assert_eq!(about.bottom_exposure_s, Some(25.0));
+        assert_eq!(metadata.resin.as_deref(), resin);
+        assert_eq!((metadata.pixels, metadata.pixel_mm), ([5, 3], [0.04, 0.04]));
+        assert_eq!(metadata.plate_mm, [0.2, 0.12, 160.0].map(Some));
+        assert_eq!(metadata.is_mirrored_x, Some(true));
         assert_eq!(
-            (about.bottom_layers, about.transition_layers),
+            (metadata.layer_mm, metadata.exposure_s),
+            (Some(0.05), Some(2.5))
+        );
+        assert_eq!(metadata.bottom_exposure_s, Some(25.0));
+        assert_eq!(
+            (metadata.bottom_layers, metadata.transition_layers),
             (Some(2), Some(6))
         );
-        assert_eq!(about.print_time_s, Some(600.0));
-        assert_eq!((about.volume_ml, about.weight_g), (Some(12.5), Some(13.75)));
-        assert_eq!(about.uses_layer_values, Some(true));
+        assert_eq!(metadata.print_time_s, Some(600.0));
+        assert_eq!(
+            (metadata.volume_ml, metadata.weight_g),
+            (Some(12.5), Some(13.75))
+        );
+        assert_eq!(metadata.uses_layer_values, Some(true));
         let layer = file.layers()[1];
         assert_eq!((layer.z_mm, layer.thickness_mm), (0.15, 0.1));
         assert_eq!(layer.exposure_s, Some(2.25));

@@ -40,10 +40,10 @@ fn is_bad(bytes: &[u8]) -> bool {
     let Ok(file) = PrintFile::open(bytes) else {
         return true;
     };
-    let flips = file.about().flips();
+    let flips = file.metadata().flips();
     for layer in 0..file.layers().len().min(8) {
         // Only the smallest of the remaining masks: a changed size may be large.
-        if file.about().mask_pixels() < 1 << 20 {
+        if file.metadata().mask_pixels() < 1 << 20 {
             let _ = file.mask(layer, flips);
         }
     }

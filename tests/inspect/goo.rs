@@ -65,26 +65,29 @@ fn a_file_says_what_its_header_says() {
         let layers = [(0.05, all(3)), (0.1, all(3)), (0.2, all(3))];
         let file = blank(is_big_endian, &layers).bytes;
         let file = open(&file);
-        let about = file.about();
-        assert_eq!(about.format, Format::Goo);
-        assert_eq!(about.version.as_deref(), Some("V3.0"));
-        assert_eq!(about.software.as_deref(), Some("Slicer 1.2"));
-        assert_eq!(about.printer.as_deref(), Some("Printer"));
-        assert_eq!(about.resin.as_deref(), Some("Grey"));
-        assert_eq!((about.pixels, about.pixel_mm), ([6, 4], [0.02, 0.03]));
-        assert_eq!(about.plate_mm, [0.12, 0.12, 150.0].map(Some));
-        assert_eq!(about.is_mirrored_x, Some(true));
-        assert_eq!(about.is_mirrored_y, Some(false));
-        assert_eq!(about.layer_mm, Some(0.05));
-        assert_eq!(about.exposure_s, Some(2.5));
-        assert_eq!(about.bottom_exposure_s, Some(30.0));
+        let metadata = file.metadata();
+        assert_eq!(metadata.format, Format::Goo);
+        assert_eq!(metadata.version.as_deref(), Some("V3.0"));
+        assert_eq!(metadata.software.as_deref(), Some("Slicer 1.2"));
+        assert_eq!(metadata.printer.as_deref(), Some("Printer"));
+        assert_eq!(metadata.resin.as_deref(), Some("Grey"));
+        assert_eq!((metadata.pixels, metadata.pixel_mm), ([6, 4], [0.02, 0.03]));
+        assert_eq!(metadata.plate_mm, [0.12, 0.12, 150.0].map(Some));
+        assert_eq!(metadata.is_mirrored_x, Some(true));
+        assert_eq!(metadata.is_mirrored_y, Some(false));
+        assert_eq!(metadata.layer_mm, Some(0.05));
+        assert_eq!(metadata.exposure_s, Some(2.5));
+        assert_eq!(metadata.bottom_exposure_s, Some(30.0));
         assert_eq!(
-            (about.bottom_layers, about.transition_layers),
+            (metadata.bottom_layers, metadata.transition_layers),
             (Some(1), Some(5))
         );
-        assert_eq!(about.print_time_s, Some(3600.0));
-        assert_eq!((about.volume_ml, about.weight_g), (Some(1.5), Some(1.65)));
-        assert_eq!(about.uses_layer_values, Some(true));
+        assert_eq!(metadata.print_time_s, Some(3600.0));
+        assert_eq!(
+            (metadata.volume_ml, metadata.weight_g),
+            (Some(1.5), Some(1.65))
+        );
+        assert_eq!(metadata.uses_layer_values, Some(true));
         let tops: Vec<f64> = file.layers().iter().map(|layer| layer.z_mm).collect();
         assert_eq!(tops, [0.05, 0.1, 0.2]);
         let layer = file.layers()[2];
@@ -107,9 +110,9 @@ fn a_file_says_what_its_header_says() {
 fn the_weight_tells_the_unit_of_the_volume() {
     let mut file = blank(true, &[(0.05, all(3))]);
     file.f32(195_450, 1.5);
-    assert_eq!(open(&file.bytes).about().volume_ml, Some(1.5));
+    assert_eq!(open(&file.bytes).metadata().volume_ml, Some(1.5));
     file.f32(195_450, 1500.0).f32(195_454, 0.0);
-    assert_eq!(open(&file.bytes).about().volume_ml, Some(1.5));
+    assert_eq!(open(&file.bytes).metadata().volume_ml, Some(1.5));
 }
 
 #[test]
@@ -295,7 +298,7 @@ fn what_cannot_be_read_says_why() {
     // By its name the file is little-endian, and then says other things.
     let mut named = blank(false, &[(0.05, all(3))]);
     named.u32(195_470, 0).text(92, "ELEGOO Jupiter 2");
-    assert_eq!(open(&named.bytes).about().pixels, [6, 4]);
+    assert_eq!(open(&named.bytes).metadata().pixels, [6, 4]);
 }
 
 #[test]
@@ -317,7 +320,7 @@ fn heights_and_exposures_that_are_no_numbers_are_found() {
         let found = inspected(&file.bytes);
         let expected = [heights, FileFinding::BadNominalValues, exposures];
         assert_eq!(found.warnings, expected);
-        assert_eq!(found.about.bottom_exposure_s, None);
+        assert_eq!(found.metadata.bottom_exposure_s, None);
         assert_eq!(found.exposure_range_s, Some([2.75, 2.75]));
         assert_eq!(found.thickness_range_mm, Some([0.05, 0.05]));
     }

@@ -122,7 +122,7 @@ fn pixels(file: &PrintFile<'_>, layer: usize) -> Vec<u8> {
     })
     .unwrap();
     // The mask agrees: it is lit from half of the brightness on.
-    let [width, height] = file.about().pixels.map(|side| side as i32);
+    let [width, height] = file.metadata().pixels.map(|side| side as i32);
     let mask = file.mask(layer, Flips::default()).unwrap();
     let places = (0..height).flat_map(|row| (0..width).map(move |column| (column, row)));
     for (&pixel, (column, row)) in pixels.iter().zip(places) {

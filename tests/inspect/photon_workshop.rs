@@ -96,28 +96,34 @@ fn a_file_says_what_its_tables_say() {
     for version in 515..=518 {
         let file = photon_workshop(version, &[(0.05, white()), (0.1, white()), (0.05, white())]);
         let file = open(&file);
-        let about = file.about();
-        assert_eq!(about.format, Format::PhotonWorkshop);
-        assert_eq!(about.version, Some(version.to_string()));
-        assert_eq!(about.pixels, [5, 3]);
+        let metadata = file.metadata();
+        assert_eq!(metadata.format, Format::PhotonWorkshop);
+        assert_eq!(metadata.version, Some(version.to_string()));
+        assert_eq!(metadata.pixels, [5, 3]);
         let pixel_mm = match version {
             515 => [0.05, 0.05],
             518 => [0.039, 0.031],
             _ => [0.04, 0.03],
         };
-        assert_eq!(about.pixel_mm, pixel_mm);
+        assert_eq!(metadata.pixel_mm, pixel_mm);
         let printer = (version > 515).then_some("Photon Something");
-        assert_eq!(about.printer.as_deref(), printer);
+        assert_eq!(metadata.printer.as_deref(), printer);
         let software = (version > 516).then_some("Workshop 3.1");
-        assert_eq!(about.software.as_deref(), software);
-        assert_eq!((about.layer_mm, about.exposure_s), (Some(0.05), Some(2.0)));
-        assert_eq!(about.bottom_exposure_s, Some(28.0));
-        assert_eq!(about.bottom_layers, Some(6));
-        assert_eq!(about.transition_layers, (version > 515).then_some(8));
-        assert_eq!((about.volume_ml, about.weight_g), (Some(9.5), Some(10.45)));
-        assert_eq!(about.print_time_s, Some(900.0));
-        assert_eq!(about.uses_layer_values, Some(true));
-        assert_eq!(about.is_mirrored_x, None);
+        assert_eq!(metadata.software.as_deref(), software);
+        assert_eq!(
+            (metadata.layer_mm, metadata.exposure_s),
+            (Some(0.05), Some(2.0))
+        );
+        assert_eq!(metadata.bottom_exposure_s, Some(28.0));
+        assert_eq!(metadata.bottom_layers, Some(6));
+        assert_eq!(metadata.transition_layers, (version > 515).then_some(8));
+        assert_eq!(
+            (metadata.volume_ml, metadata.weight_g),
+            (Some(9.5), Some(10.45))
+        );
+        assert_eq!(metadata.print_time_s, Some(900.0));
+        assert_eq!(metadata.uses_layer_values, Some(true));
+        assert_eq!(metadata.is_mirrored_x, None);
         let tops: Vec<f64> = file.layers().iter().map(|layer| layer.z_mm).collect();
         assert_eq!(tops, [0.05, 0.15, 0.2]);
         let layer = file.layers()[1];

@@ -145,18 +145,18 @@ fn masks_of_an_inspection_are_those_of_the_layers() {
         pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
         let (bytes, _) = slicer.write_archive(Vec::new(), &mut quiet).unwrap();
         let file = PrintFile::open(&*bytes).unwrap();
-        let about = file.about();
+        let metadata = file.metadata();
         let mut masks = Vec::new();
         let inspection = inspect_masks(&file, &mut |mask| masks.push(mask), &mut silent).unwrap();
         assert_eq!(inspection, inspect(&file, &mut silent).unwrap(), "{name}");
         let layers = 0..file.layers().len();
-        let expected = layers.map(|layer| file.mask(layer, about.flips()).unwrap());
+        let expected = layers.map(|layer| file.mask(layer, metadata.flips()).unwrap());
         assert!(masks.iter().cloned().eq(expected), "{name}");
         let facets = facets(&surface(
             file.layers(),
             &masks,
-            about.pixels,
-            about.pixel_mm,
+            metadata.pixels,
+            metadata.pixel_mm,
         ));
         assert!(is_closed(&facets), "{name}");
         let ratio = volume(&facets) / inspection.lit_volume_ml / 1e3;

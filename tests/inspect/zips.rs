@@ -78,15 +78,21 @@ fn the_colours_of_nanodlp_are_pixels() {
     let file = nanodlp();
     let found = inspected(&file);
     let file = open(&file);
-    let about = file.about();
-    assert_eq!(about.format, Format::Nanodlp);
-    assert_eq!(about.version.as_deref(), Some("2"));
-    assert_eq!(about.software.as_deref(), Some("Slicer 7"));
-    assert_eq!(about.resin.as_deref(), Some("Grey"));
-    assert_eq!((about.pixels, about.pixel_mm), ([4, 2], [0.019, 0.024]));
-    assert_eq!((about.layer_mm, about.bottom_layers), (Some(0.05), Some(1)));
-    assert_eq!(about.print_time_s, Some(120.0));
-    assert_eq!(about.is_mirrored_x, None);
+    let metadata = file.metadata();
+    assert_eq!(metadata.format, Format::Nanodlp);
+    assert_eq!(metadata.version.as_deref(), Some("2"));
+    assert_eq!(metadata.software.as_deref(), Some("Slicer 7"));
+    assert_eq!(metadata.resin.as_deref(), Some("Grey"));
+    assert_eq!(
+        (metadata.pixels, metadata.pixel_mm),
+        ([4, 2], [0.019, 0.024])
+    );
+    assert_eq!(
+        (metadata.layer_mm, metadata.bottom_layers),
+        (Some(0.05), Some(1))
+    );
+    assert_eq!(metadata.print_time_s, Some(120.0));
+    assert_eq!(metadata.is_mirrored_x, None);
     let tops: Vec<_> = file
         .layers()
         .iter()
@@ -285,24 +291,27 @@ fn a_zip_of_anycubic_says_everything_of_each_layer() {
     };
     assert_eq!(warnings(&file), [black]);
     let file = open(&file);
-    let about = file.about();
-    assert_eq!(about.format, Format::AnycubicZip);
-    assert_eq!(about.printer.as_deref(), Some("Photon Seven"));
-    assert_eq!(about.resin.as_deref(), Some("Grey"));
-    assert_eq!(about.pixels, [5, 2]);
-    assert_eq!(about.pixel_mm, [16.8 / 1000.0, 24.8 / 1000.0]);
-    assert_eq!(about.plate_mm, [223.6, 126.9, 230.0].map(Some));
+    let metadata = file.metadata();
+    assert_eq!(metadata.format, Format::AnycubicZip);
+    assert_eq!(metadata.printer.as_deref(), Some("Photon Seven"));
+    assert_eq!(metadata.resin.as_deref(), Some("Grey"));
+    assert_eq!(metadata.pixels, [5, 2]);
+    assert_eq!(metadata.pixel_mm, [16.8 / 1000.0, 24.8 / 1000.0]);
+    assert_eq!(metadata.plate_mm, [223.6, 126.9, 230.0].map(Some));
     assert_eq!(
-        (about.exposure_s, about.bottom_exposure_s),
+        (metadata.exposure_s, metadata.bottom_exposure_s),
         (Some(2.0), Some(28.0))
     );
     assert_eq!(
-        (about.bottom_layers, about.transition_layers),
+        (metadata.bottom_layers, metadata.transition_layers),
         (Some(5), Some(8))
     );
-    assert_eq!(about.print_time_s, Some(777.0));
-    assert_eq!((about.volume_ml, about.weight_g), (Some(3.5), Some(3.85)));
-    assert_eq!(about.uses_layer_values, Some(true));
+    assert_eq!(metadata.print_time_s, Some(777.0));
+    assert_eq!(
+        (metadata.volume_ml, metadata.weight_g),
+        (Some(3.5), Some(3.85))
+    );
+    assert_eq!(metadata.uses_layer_values, Some(true));
     let layer = file.layers()[1];
     assert_eq!((layer.z_mm, layer.thickness_mm), (0.15, 0.1));
     assert_eq!(layer.exposure_s, Some(1.5));

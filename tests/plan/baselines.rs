@@ -3,7 +3,7 @@
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::greedy::{self, Sight};
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::{PlanError, uniform};
 
 use super::{FIGURE_3, limits, random_errors, sum};

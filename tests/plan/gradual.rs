@@ -1,7 +1,7 @@
 //! Gradual thicknesses, against brute force over all sets of planes.
 
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::{PlanError, gradual};
 
 use super::cases::{self, assert_without_snap_planes, thicknesses};

@@ -1,7 +1,7 @@
 //! Plans for several models: brute force over all sets of planes, with tolerances of models' own.
 
 use cusp_slicer::plan::optimal::{self, Objective, fill_cheapest, fill_fewest};
-use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
+use cusp_slicer::plan::snap_cost::{SnapCosts, SnapPlanes};
 use cusp_slicer::profile::LayerErrors;
 use cusp_slicer::profile::largest::{LargestError, Strictness};
 
@@ -93,8 +93,8 @@ fn sums_of_several_models_are_planned_in_linear_time_as_well() {
         let segment = segment(bins, (least, least + random.u32(0..=20)));
         let tolerance = errors.to_steps(random.f64() * 8.0);
         let between = |lower, upper| errors.steps_between(lower, upper);
-        let found = fill_fewest(between, &segment, &Preferred::default(), tolerance);
-        let expected = fill_cheapest(&errors, &segment, &Preferred::default(), tolerance, |_| 1);
+        let found = fill_fewest(between, &segment, &SnapCosts::default(), tolerance);
+        let expected = fill_cheapest(&errors, &segment, &SnapCosts::default(), tolerance, |_| 1);
         assert_eq!(found.cost, expected.cost);
         assert_eq!(found.worst, expected.worst);
     }

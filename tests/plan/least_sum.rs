@@ -3,7 +3,7 @@
 use std::collections::BTreeMap;
 
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::{PlanError, least_sum};
 
 use super::cases::{self, assert_without_snap_planes};

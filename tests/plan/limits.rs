@@ -2,8 +2,8 @@
 
 use cusp_slicer::grid::Bins;
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::{Price, SnapPlanes};
 use cusp_slicer::plan::segment::Segments;
+use cusp_slicer::plan::snap_cost::{Price, SnapPlanes};
 use cusp_slicer::plan::{HeightRange, Limits, Plan, PlanError, uniform};
 use cusp_slicer::profile::{LayerErrors, Profile};
 use cusp_slicer::quantity::Quantity;

@@ -12,8 +12,8 @@ mod tradeoff;
 
 use crate::common::bins;
 use cusp_slicer::plan::optimal::Objective;
-use cusp_slicer::plan::preferred::SnapPlanes;
 use cusp_slicer::plan::segment::Segment;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::{Limits, Plan, PlanError};
 use cusp_slicer::profile::deviation::DeviationError;
 use cusp_slicer::profile::volume::VolumeError;

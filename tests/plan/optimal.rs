@@ -3,7 +3,7 @@
 
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::plan::optimal::{self, Objective, Table, fill_cheapest, fill_fewest};
-use cusp_slicer::plan::preferred::{Preferred, SnapPlanes};
+use cusp_slicer::plan::snap_cost::{SnapCosts, SnapPlanes};
 use cusp_slicer::profile::{ErrorSum, LayerErrors};
 use cusp_slicer::resin::Resin;
 
@@ -24,7 +24,7 @@ fn figure_3_has_its_k_d_and_s() {
     let table = fill_fewest(
         |lower, upper| errors.steps_between(lower, upper),
         &segment(8, (2, 3)),
-        &Preferred::default(),
+        &SnapCosts::default(),
         errors.to_steps(0.6),
     );
     let none = Table::NO_PLAN;
@@ -50,7 +50,7 @@ fn the_linear_planner_has_the_k_of_procedure_1_written_literally() {
         let errors = error_sum(&in_tenths(&tenths));
         let steps = LayerErrors::Sum(errors.clone()).to_steps(tolerance as f64 / 10.0);
         let segment = segment(count, (least as u32, greatest as u32));
-        let table = fill_fewest(between(&errors), &segment, &Preferred::default(), steps);
+        let table = fill_fewest(between(&errors), &segment, &SnapCosts::default(), steps);
         let (k, _) = oracle::procedure_1(&tenths, (least, greatest), tolerance);
         assert_eq!(table.cost, k, "{tenths:?} {least} {greatest} {tolerance}");
     }
@@ -71,8 +71,8 @@ fn the_linear_planner_has_the_least_largest_error_of_all_plans_as_short() {
         let errors = error_sum(&density);
         let all = LayerErrors::Sum(errors.clone());
         let tolerance = all.to_steps(random.f64() * 8.0);
-        let found = fill_fewest(between(&errors), &segment, &Preferred::default(), tolerance);
-        let expected = fill_cheapest(&all, &segment, &Preferred::default(), tolerance, |_| 1);
+        let found = fill_fewest(between(&errors), &segment, &SnapCosts::default(), tolerance);
+        let expected = fill_cheapest(&all, &segment, &SnapCosts::default(), tolerance, |_| 1);
         assert_eq!(
             found.cost, expected.cost,
             "{density:?} {segment:?} {tolerance}"
@@ -131,7 +131,7 @@ fn a_plan_from_few_planes_is_that_from_all_of_them() {
             Ok(plan) => segment(plan.boundaries[plan.layers()] as usize, (least, greatest)),
             Err(blocked) => blocked.segment.clone(),
         };
-        let table = fill_fewest(between(&errors), &segment, &Preferred::default(), tolerance);
+        let table = fill_fewest(between(&errors), &segment, &SnapCosts::default(), tolerance);
         match found {
             Ok(plan) => {
                 let mut boundaries = vec![segment.units];

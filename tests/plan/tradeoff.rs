@@ -1,7 +1,7 @@
 //! Infeasible tolerances and the changes that make them feasible, the trade-off curve, and tolerances for a goal.
 
 use cusp_slicer::plan::optimal::{self, Objective};
-use cusp_slicer::plan::preferred::SnapPlanes;
+use cusp_slicer::plan::snap_cost::SnapPlanes;
 use cusp_slicer::plan::tradeoff::{Goal, curve, tolerance_for};
 use cusp_slicer::plan::{Limits, PlanError};
 use cusp_slicer::resin::Resin;

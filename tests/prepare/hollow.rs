@@ -116,14 +116,14 @@ fn a_ball_keeps_a_wall_all_around() {
 
 /// A torus that lies flat: `ring` from its middle to that of its tube.
 fn torus(ring: f64, tube: f64) -> solids::Triangles {
-    let about = solids::circle(48);
+    let metadata = solids::circle(48);
     let across = solids::circle(24);
     let point = |i: usize, j: usize| {
-        let (about, across) = (about[i % about.len()], across[j % across.len()]);
+        let (metadata, across) = (metadata[i % metadata.len()], across[j % across.len()]);
         let away = ring + tube * across.x;
-        DVec3::new(about.x * away, about.y * away, tube * across.y).as_vec3()
+        DVec3::new(metadata.x * away, metadata.y * away, tube * across.y).as_vec3()
     };
-    let squares = (0..about.len()).flat_map(|i| (0..across.len()).map(move |j| (i, j)));
+    let squares = (0..metadata.len()).flat_map(|i| (0..across.len()).map(move |j| (i, j)));
     squares
         .flat_map(|(i, j)| {
             let [a, b, c, d] = [

@@ -64,12 +64,12 @@ impl PrintReader {
 
     /// Columns and rows of the masks, seen from above.
     pub fn pixels(&self) -> Vec<u32> {
-        self.file.about().pixels_from_above().to_vec()
+        self.file.metadata().pixels_from_above().to_vec()
     }
 
     /// Sides of their pixels in x and y, in millimetres.
     pub fn pixel_mm(&self) -> Vec<f64> {
-        self.file.about().pixel_mm_from_above().to_vec()
+        self.file.metadata().pixel_mm_from_above().to_vec()
     }
 
     /// The mask of a layer, seen from above: one bit per pixel, rows from the top, most significant bit first, ⌈width / 8⌉
@@ -78,11 +78,11 @@ impl PrintReader {
     /// # Errors
     /// Throws a `ReaderError` if the layer is damaged.
     pub fn mask(&self, layer: usize) -> Result<Vec<u8>, JsValue> {
-        let [width, height] = self.file.about().pixels_from_above();
+        let [width, height] = self.file.metadata().pixels_from_above();
         if let Some(mask) = self.masks.get(layer) {
             return Ok(mask.bits(width, height));
         }
-        let mask = self.file.mask(layer, self.file.about().flips());
+        let mask = self.file.mask(layer, self.file.metadata().flips());
         mask.map(|mask| mask.bits(width, height))
             .map_err(|error| thrown(&error))
     }
@@ -90,12 +90,12 @@ impl PrintReader {
     /// The surface of the printed solid, coarse enough to display: nine numbers per facet, in millimetres. Needs an
     /// inspection.
     pub fn surface(&self) -> Vec<f32> {
-        let about = self.file.about();
+        let metadata = self.file.metadata();
         surface(
             self.file.layers(),
             &self.masks,
-            about.pixels_from_above(),
-            about.pixel_mm_from_above(),
+            metadata.pixels_from_above(),
+            metadata.pixel_mm_from_above(),
         )
     }
 

@@ -5,7 +5,9 @@ use serde_json::Value;
 use super::bytes::clean;
 use super::container::{Archive, any_number, number};
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, UnreadKind, positive};
+use super::{
+    Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, UnreadKind, positive,
+};
 
 const RESINS: &str = "anycubic_photon_resins.pwsp";
 const LAYERS: &str = "layers_controller.conf";
@@ -45,7 +47,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let text = |value: &Value| value.as_str().and_then(clean);
     let plate = |key: &str| positive(number(&machine[key]));
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             version: number(&resins["version"]).map(|version| version.to_string()),
             printer: text(&machine["name"]),
             resin: text(&extern_["active_resins"]),
@@ -64,7 +66,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             volume_ml: number(&info["volume"]),
             weight_g: number(&info["weight"]),
             uses_layer_values: number(&slicing["use_indivi_layerpara"]).map(|flag| flag != 0.0),
-            ..About::new(
+            ..Metadata::new(
                 Format::AnycubicZip,
                 [pixels("res_x")?, pixels("res_y")?],
                 pixel_mm,

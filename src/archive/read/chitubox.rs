@@ -2,11 +2,11 @@
 
 use std::collections::HashMap;
 
-use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
+use super::metadata::with_thicknesses;
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use super::{Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, positive};
 
 const FILE: &str = "run.gcode";
 
@@ -42,7 +42,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let previews = ["preview.png", "preview_cropping.png"].into_iter();
     let previews = previews.filter(|name| archive.has(name));
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             printer: name("machineType"),
             resin: name("resin"),
             plate_mm: [Some(length_x), Some(length_y), number("machineZ")],
@@ -59,7 +59,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             volume_ml: number("volume"),
             weight_g: number("weight"),
             uses_layer_values: Some(true),
-            ..About::new(Format::Chitubox, [width, height], pitch)
+            ..Metadata::new(Format::Chitubox, [width, height], pitch)
         },
         layers: with_thicknesses(layers),
         coding: Coding::Png,

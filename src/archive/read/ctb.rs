@@ -1,11 +1,11 @@
 //! CTB, Chitubox's format, as plain files: versions 2 to 5. Everything is found by offset.
 
-use super::about::with_thicknesses;
 use super::bytes::{Fields, Order};
+use super::metadata::with_thicknesses;
 use super::preview::Picture;
 use super::runs::{Coverage, Reader};
 use super::{
-    About, Coding, Contents, Format, Layer, LayerFault, Places, PrintFileError, UnreadKind,
+    Coding, Contents, Format, Layer, LayerFault, Metadata, Places, PrintFileError, UnreadKind,
 };
 
 /// First bytes of a file, by its kind.
@@ -57,7 +57,7 @@ pub fn read(bytes: &[u8], magic: Magic) -> Result<Contents, PrintFileError> {
             known: "2, 3, 4 or 5",
         });
     }
-    let about = about(fields, version)?;
+    let metadata = metadata(fields, version)?;
     let (layers, places) = layers(fields, version)?;
     let mut pictures = Vec::new();
     for at in [0x3C, 0x48] {
@@ -71,7 +71,7 @@ pub fn read(bytes: &[u8], magic: Magic) -> Result<Contents, PrintFileError> {
         }
     }
     Ok(Contents {
-        about,
+        metadata,
         layers: with_thicknesses(layers),
         coding: Coding::Ctb {
             key: fields.u32(0x64)?,
@@ -83,7 +83,7 @@ pub fn read(bytes: &[u8], magic: Magic) -> Result<Contents, PrintFileError> {
     })
 }
 
-fn about(fields: Fields<'_>, version: u32) -> Result<About, PrintFileError> {
+fn metadata(fields: Fields<'_>, version: u32) -> Result<Metadata, PrintFileError> {
     let pixels = [fields.u32(0x34)?, fields.u32(0x38)?];
     let plate_mm = [
         fields.finite(0x8)?,
@@ -97,7 +97,7 @@ fn about(fields: Fields<'_>, version: u32) -> Result<About, PrintFileError> {
             PrintFileError::bad_setting(TABLE, ["columns and plate x", "rows and plate y"][axis])
         })?;
     }
-    let mut about = About {
+    let mut metadata = Metadata {
         version: Some(version.to_string()),
         plate_mm,
         is_mirrored_x: Some(fields.u32(0x50)? != 0),
@@ -107,25 +107,25 @@ fn about(fields: Fields<'_>, version: u32) -> Result<About, PrintFileError> {
         bottom_exposure_s: Some(fields.f32(0x28)?),
         bottom_layers: Some(fields.u32(0x30)?),
         print_time_s: Some(f64::from(fields.u32(0x4C)?)),
-        ..About::new(Format::Ctb, pixels, pixel_mm)
+        ..Metadata::new(Format::Ctb, pixels, pixel_mm)
     };
     let parameters = u64::from(fields.u32(0x54)?);
     if parameters != 0 {
-        about.volume_ml = fields.finite(parameters + 0x14)?;
-        about.weight_g = fields.finite(parameters + 0x18)?;
+        metadata.volume_ml = fields.finite(parameters + 0x14)?;
+        metadata.weight_g = fields.finite(parameters + 0x18)?;
     }
     let slicer = u64::from(fields.u32(0x68)?);
     if slicer != 0 {
         let name = u64::from(fields.u32(slicer + 0x1C)?);
         let length = u64::from(fields.u32(slicer + 0x20)?);
-        about.printer = fields.text(name, length)?;
-        about.uses_layer_values = Some(fields.u8(slicer + 0x27)? != 0);
-        about.transition_layers = Some(fields.u32(slicer + 0x3C)?);
+        metadata.printer = fields.text(name, length)?;
+        metadata.uses_layer_values = Some(fields.u8(slicer + 0x27)? != 0);
+        metadata.transition_layers = Some(fields.u32(slicer + 0x3C)?);
         if version >= 5 {
-            about.resin = resin(fields, u64::from(fields.u32(slicer + 0x40)?))?;
+            metadata.resin = resin(fields, u64::from(fields.u32(slicer + 0x40)?))?;
         }
     }
-    Ok(about)
+    Ok(metadata)
 }
 
 /// Type and name of the resin, from the print parameters of version 5.

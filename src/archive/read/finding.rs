@@ -2,7 +2,7 @@
 
 use serde::Serialize;
 
-use super::{About, Layer, LayerFault};
+use super::{Layer, LayerFault, Metadata};
 
 /// Something in a print file that its user should know: a stable code and typed details. `Display` writes one sentence.
 /// Layers are numbered from 1; where several have the same fault, the details are the first one's.
@@ -136,13 +136,13 @@ fn number_and_first(affected: impl Iterator<Item = bool>) -> Option<[usize; 2]> 
 }
 
 /// Takes out exposures and nominal values that are not finite, and says which there were.
-pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<FileFinding> {
+pub(super) fn take_not_finite(metadata: &mut Metadata, layers: &mut [Layer]) -> Vec<FileFinding> {
     let take = |value: &mut Option<f64>| value.take_if(|value| !value.is_finite()).is_some();
     let mut findings = Vec::new();
     let nominal = [
-        &mut about.layer_mm,
-        &mut about.exposure_s,
-        &mut about.bottom_exposure_s,
+        &mut metadata.layer_mm,
+        &mut metadata.exposure_s,
+        &mut metadata.bottom_exposure_s,
     ];
     if nominal.map(take).contains(&true) {
         findings.push(FileFinding::BadNominalValues);
@@ -158,7 +158,7 @@ pub(super) fn take_not_finite(about: &mut About, layers: &mut [Layer]) -> Vec<Fi
 }
 
 /// Faults of heights and exposures.
-pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
+pub(super) fn of_settings(metadata: &Metadata, layers: &[Layer]) -> Vec<FileFinding> {
     let mut findings = Vec::new();
     let Some(first) = layers.first() else {
         return vec![FileFinding::NoLayers];
@@ -195,11 +195,11 @@ pub(super) fn of_settings(about: &About, layers: &[Layer]) -> Vec<FileFinding> {
     };
     let thinnest_mm = thicknesses().fold(f64::INFINITY, f64::min);
     let thickest_mm = thicknesses().fold(f64::NEG_INFINITY, f64::max);
-    if about.uses_layer_values == Some(false) && thickest_mm - thinnest_mm > SAME_MM {
+    if metadata.uses_layer_values == Some(false) && thickest_mm - thinnest_mm > SAME_MM {
         findings.push(FileFinding::IgnoredHeights {
             thinnest_mm,
             thickest_mm,
-            layer_mm: about.layer_mm,
+            layer_mm: metadata.layer_mm,
         });
     }
     let unexposed = layers

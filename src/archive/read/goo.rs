@@ -1,11 +1,11 @@
 //! GOO, Elegoo's format, and PRZ, which is Phrozen's name for it: a header, and layers one after the other.
 
-use super::about::with_thicknesses;
 use super::bytes::{Fields, Order};
+use super::metadata::with_thicknesses;
 use super::preview::Picture;
 use super::runs::{Coverage, Reader};
 use super::{
-    About, Coding, Contents, FileFinding, Format, Layer, LayerFault, Places, PrintFileError,
+    Coding, Contents, FileFinding, Format, Layer, LayerFault, Metadata, Places, PrintFileError,
 };
 
 /// Bytes at offset 4, and again at the end after three zeros.
@@ -35,7 +35,7 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
             known: "V3.0",
         });
     }
-    let about = about(fields, version)?;
+    let metadata = metadata(fields, version)?;
     let mut findings = Vec::new();
     let (layers, places) = layers(fields, &mut findings)?;
     let preview = |at: u64, side: u32| Picture::Words {
@@ -44,7 +44,7 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
         place: at..at + 2 * u64::from(side * side),
     };
     Ok(Contents {
-        about,
+        metadata,
         layers: with_thicknesses(layers),
         coding: Coding::Goo {
             is_fine: fields.u8(195_474)? != 0,
@@ -71,7 +71,7 @@ fn order(bytes: &[u8]) -> Result<Order, PrintFileError> {
     Err(PrintFileError::bad_setting(TABLE, "offset of the layers"))
 }
 
-fn about(fields: Fields<'_>, version: String) -> Result<About, PrintFileError> {
+fn metadata(fields: Fields<'_>, version: String) -> Result<Metadata, PrintFileError> {
     let pixels = [195_314, 195_316].map(|at| fields.u16(at));
     let pixels = [u32::from(pixels[0].clone()?), u32::from(pixels[1].clone()?)];
     let plate_mm = [
@@ -88,7 +88,7 @@ fn about(fields: Fields<'_>, version: String) -> Result<About, PrintFileError> {
     }
     let weight_g = fields.finite(195_454)?;
     let software = [fields.text(12, 32)?, fields.text(44, 24)?];
-    Ok(About {
+    Ok(Metadata {
         version: Some(version),
         software: super::joined(&software),
         printer: fields.text(92, 32)?,
@@ -105,7 +105,7 @@ fn about(fields: Fields<'_>, version: String) -> Result<About, PrintFileError> {
         volume_ml: volume_ml(fields.finite(195_450)?, weight_g),
         weight_g,
         uses_layer_values: Some(fields.u8(195_445)? != 0),
-        ..About::new(Format::Goo, pixels, pixel_mm)
+        ..Metadata::new(Format::Goo, pixels, pixel_mm)
     })
 }
 

@@ -2,11 +2,11 @@
 
 use serde_json::Value;
 
-use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
+use super::metadata::with_thicknesses;
 use super::{
-    About, Coding, Contents, Format, Layer, Places, PrintFileError, PrintedCopy, positive,
+    Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, PrintedCopy, positive,
 };
 use crate::model::{ModelUnit, Pose};
 
@@ -41,7 +41,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let resin = &manifest["resin"];
     let text = |value: &Value| value.as_str().and_then(clean);
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             version: manifest["schema"].as_u64().map(|schema| schema.to_string()),
             printer: printer(&manifest).and_then(clean),
             resin: text(&resin["name"]),
@@ -52,7 +52,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             print_time_s: manifest["print_time_s"].as_f64(),
             volume_ml: manifest["resin_ml"].as_f64(),
             uses_layer_values: Some(true),
-            ..About::new(Format::Png, pixels, pixel_mm)
+            ..Metadata::new(Format::Png, pixels, pixel_mm)
         },
         layers: with_thicknesses(layers),
         coding: Coding::Png,

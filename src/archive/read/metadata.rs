@@ -12,7 +12,7 @@ use crate::printer::{PRINTERS, Printer};
 #[derive(Debug, Clone, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify), tsify(missing_as_null))]
-pub struct About {
+pub struct Metadata {
     /// The format.
     pub format: Format,
     /// The version of the format.
@@ -56,7 +56,7 @@ pub struct About {
     pub uses_layer_values: Option<bool>,
 }
 
-impl About {
+impl Metadata {
     /// A file that says nothing but the size of its masks.
     pub(super) fn new(format: Format, pixels: [u32; 2], pixel_mm: [f64; 2]) -> Self {
         Self {
@@ -129,7 +129,7 @@ impl About {
     }
 }
 
-/// Values that a print file states for a layer, whether or not they count ([`About::uses_layer_values`]). Values that
+/// Values that a print file states for a layer, whether or not they count ([`Metadata::uses_layer_values`]). Values that
 /// it does not state are absent.
 #[derive(Debug, Clone, Copy, Default, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]

@@ -6,8 +6,8 @@
 //!
 //! # fn example(bytes: &[u8]) -> Result<(), cusp_slicer::archive::read::PrintFileError> {
 //! let file = PrintFile::open(bytes)?;
-//! println!("{} layers for a {:?}", file.layers().len(), file.about().printer);
-//! let mask = file.mask(0, file.about().flips())?;
+//! println!("{} layers for a {:?}", file.layers().len(), file.metadata().printer);
+//! let mask = file.mask(0, file.metadata().flips())?;
 //! println!("the first layer has light in the rows {:?}", mask.rows());
 //! # Ok(())
 //! # }
@@ -17,7 +17,6 @@
 //! is checked before use: bad input is an error or a [`FileFinding`], and no file makes a reader allocate much more
 //! than its size justifies.
 
-mod about;
 mod anycubic_zip;
 mod bytes;
 mod chitubox;
@@ -29,6 +28,7 @@ mod goo;
 mod image;
 mod manifest;
 mod mask;
+mod metadata;
 mod nanodlp;
 mod photon_workshop;
 mod preview;
@@ -43,11 +43,11 @@ use std::borrow::Cow;
 use std::io::Write;
 use std::ops::Range;
 
-pub use about::{About, Layer, Preview};
 pub use bytes::Bytes;
 pub use error::{LayerFault, PrintFileError, UnreadKind};
 pub use finding::FileFinding;
 pub use mask::{Flips, Mask, changes_up_to, combine};
+pub use metadata::{Layer, Metadata, Preview};
 pub use report::{Inspection, LayerInspection, PreviewSize, inspect, inspect_masks};
 pub use runs::Sink;
 pub use surface::surface;
@@ -84,7 +84,7 @@ pub struct PrintedCopy {
 
 /// Result of a format's reader.
 struct Contents {
-    about: About,
+    metadata: Metadata,
     layers: Vec<Layer>,
     coding: Coding,
     places: Places,
@@ -98,7 +98,7 @@ struct Contents {
 impl Contents {
     /// Takes out exposures and nominal values that are not finite, as if they were not stated, and keeps the findings.
     fn take_not_finite(&mut self) {
-        let found = finding::take_not_finite(&mut self.about, &mut self.layers);
+        let found = finding::take_not_finite(&mut self.metadata, &mut self.layers);
         self.findings.splice(0..0, found);
     }
 }
@@ -147,7 +147,7 @@ impl<'a> PrintFile<'a> {
             (Some(archive), contents)
         };
         contents.take_not_finite();
-        let [width, height] = contents.about.pixels;
+        let [width, height] = contents.metadata.pixels;
         let side = 1..=MAX_SIDE;
         if !side.contains(&width) || !side.contains(&height) {
             return Err(PrintFileError::TooManyPixels {
@@ -164,8 +164,8 @@ impl<'a> PrintFile<'a> {
     }
 
     /// Metadata of the print as a whole.
-    pub fn about(&self) -> &About {
-        &self.contents.about
+    pub fn metadata(&self) -> &Metadata {
+        &self.contents.metadata
     }
 
     /// Values of each layer, from the plate upward.
@@ -187,10 +187,10 @@ impl<'a> PrintFile<'a> {
     /// # Panics
     /// If there is no such layer; the first is 0.
     pub fn runs(&self, layer: usize, sink: &mut Sink<'_>) -> Result<(), LayerFault> {
-        let about = self.about();
+        let metadata = self.metadata();
         let data = self.data(layer)?;
-        let mut coverage = Coverage::new(about.mask_pixels(), sink);
-        let [width, height] = about.pixels;
+        let mut coverage = Coverage::new(metadata.mask_pixels(), sink);
+        let [width, height] = metadata.pixels;
         let mut each = |grey, count| coverage.run(grey, count);
         match self.contents.coding {
             Coding::Png => image::rows(&data, self.expected(layer, width, height), |row| {
@@ -208,7 +208,7 @@ impl<'a> PrintFile<'a> {
         }
     }
 
-    /// Decodes a layer's mask, and turns it over as `flips` says: [`About::flips`], unless more is known.
+    /// Decodes a layer's mask, and turns it over as `flips` says: [`Metadata::flips`], unless more is known.
     ///
     /// # Errors
     /// [`PrintFileError::Layer`].
@@ -218,11 +218,11 @@ impl<'a> PrintFile<'a> {
     pub fn mask(&self, layer: usize, flips: Flips) -> Result<Mask, PrintFileError> {
         let mask = self.stored_mask(layer);
         let mask = mask.map_err(|fault| at_layer(layer, fault))?;
-        Ok(mask.seen_from_above(self.about().pixels, flips))
+        Ok(mask.seen_from_above(self.metadata().pixels, flips))
     }
 
     fn stored_mask(&self, layer: usize) -> Result<Mask, LayerFault> {
-        let [width, height] = self.about().pixels;
+        let [width, height] = self.metadata().pixels;
         if !matches!(self.contents.coding, Coding::Png) {
             let mut collector = Collector::new(width);
             self.runs(layer, &mut |grey, count| collector.run(grey, count))?;
@@ -253,7 +253,9 @@ impl<'a> PrintFile<'a> {
         layer: usize,
         writer: impl Write,
     ) -> std::io::Result<Result<(), PrintFileError>> {
-        let decoded = image::write_grey(writer, self.about().pixels, |sink| self.runs(layer, sink));
+        let decoded = image::write_grey(writer, self.metadata().pixels, |sink| {
+            self.runs(layer, sink)
+        });
         decoded.map(|decoded| decoded.map_err(|fault| at_layer(layer, fault)))
     }
 
@@ -307,7 +309,7 @@ impl<'a> PrintFile<'a> {
 
     /// Largest unpacked size of a mask in a zip: four bytes a pixel, and 64 KiB besides, which small files need.
     fn most_bytes(&self) -> u64 {
-        4 * self.about().mask_pixels() + (1 << 16)
+        4 * self.metadata().mask_pixels() + (1 << 16)
     }
 
     fn expected(&self, layer: usize, width: u32, height: u32) -> Expected<'_> {

@@ -1,11 +1,11 @@
 //! `NanoDLP`: a zip of JSON and PNGs, in which each colour of a pixel is a pixel of the screen. Layers have one thickness,
 //! or two if bottom layers have their own.
 
-use super::about::with_tops;
 use super::bytes::clean;
 use super::container::{Archive, any_number, number};
+use super::metadata::with_tops;
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use super::{Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, positive};
 
 const PLATE: &str = "plate.json";
 const PROFILE: &str = "profile.json";
@@ -67,7 +67,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let preview = Some(PREVIEW).filter(|name| archive.has(name));
     let text = |value: &serde_json::Value| value.as_str().and_then(clean);
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             version: number(&meta["FormatVersion"]).map(|version| version.to_string()),
             software: super::joined(&[text(&meta["Program"]), text(&meta["Version"])]),
             resin: text(&profile["Title"]),
@@ -79,7 +79,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
                 .as_u64()
                 .map(|layers| layers as u32),
             print_time_s: number(&plate["PrintTime"]),
-            ..About::new(Format::Nanodlp, [width, height], [pitch_x, pitch_y])
+            ..Metadata::new(Format::Nanodlp, [width, height], [pitch_x, pitch_y])
         },
         layers: with_tops(layers.collect()),
         coding: Coding::PngOfSubpixels,

@@ -1,9 +1,9 @@
 //! Anycubic's binary file of Photon Workshop, versions 515 to 518: pwmx, pm3, pm5, pm5s and others.
 
-use super::about::with_tops;
 use super::bytes::{Fields, Order};
+use super::metadata::with_tops;
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, UnreadKind};
+use super::{Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, UnreadKind};
 
 const MARK: &[u8; 12] = b"ANYCUBIC\0\0\0\0";
 /// Bytes of a layer in its table.
@@ -53,14 +53,14 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
         }
     }
     let tables = Tables { fields, version };
-    let about = about(tables)?;
+    let metadata = metadata(tables)?;
     let (layers, places) = layers(tables)?;
     let mut pictures = vec![preview(fields, tables.find(0x1C, "PREVIEW")?)?];
     if version >= 518 {
         pictures.push(preview(fields, tables.find(0x3C, "PREVIEW2")?)?);
     }
     Ok(Contents {
-        about,
+        metadata,
         layers: with_tops(layers),
         coding: Coding::Pw0,
         places: Places::InFile(places),
@@ -70,13 +70,13 @@ pub fn read(bytes: &[u8]) -> Result<Contents, PrintFileError> {
     })
 }
 
-fn about(tables: Tables<'_>) -> Result<About, PrintFileError> {
+fn metadata(tables: Tables<'_>) -> Result<Metadata, PrintFileError> {
     let Tables { fields, version } = tables;
     let header = tables.find(0x14, "HEADER")?;
     let pixels = [fields.u32(header + 0x3C)?, fields.u32(header + 0x40)?];
     let largest_mm = fields.finite(header + 0x10)?.map(|um| um / 1000.0);
     let bottom_layers = fields.finite(header + 0x24)?;
-    let mut about = About {
+    let mut metadata = Metadata {
         version: Some(version.to_string()),
         layer_mm: Some(fields.f32(header + 0x14)?),
         exposure_s: Some(fields.f32(header + 0x18)?),
@@ -86,41 +86,41 @@ fn about(tables: Tables<'_>) -> Result<About, PrintFileError> {
         weight_g: fields.finite(header + 0x44)?,
         uses_layer_values: Some(fields.u32(header + 0x50)? != 0),
         print_time_s: Some(f64::from(fields.u32(header + 0x54)?)),
-        ..About::new(Format::PhotonWorkshop, pixels, [0.0; 2])
+        ..Metadata::new(Format::PhotonWorkshop, pixels, [0.0; 2])
     };
     let mut pixel_mm = [None; 2];
     if version >= 516 {
-        about.transition_layers = Some(fields.u32(header + 0x58)?);
+        metadata.transition_layers = Some(fields.u32(header + 0x58)?);
         let machine = tables.find(0x2C, "MACHINE")?;
-        about.printer = fields.text(machine + 0x10, 96)?;
+        metadata.printer = fields.text(machine + 0x10, 96)?;
         if fields.text(machine + 0x70, 16)?.as_deref() != Some("pw0Img") {
             return Err(PrintFileError::Unread {
                 kind: UnreadKind::PlanesOfBits,
             });
         }
         for axis in 0..3 {
-            about.plate_mm[axis] = fields.finite(machine + 0x88 + 4 * axis as u64)?;
+            metadata.plate_mm[axis] = fields.finite(machine + 0x88 + 4 * axis as u64)?;
         }
         for axis in 0..2 {
             if version >= 518 {
                 let side_um = fields.finite(machine + 0x9C + 4 * axis as u64)?;
                 pixel_mm[axis] = super::positive(side_um).map(|um| um / 1000.0);
             }
-            let side = super::side(pixels[axis], about.plate_mm[axis]);
+            let side = super::side(pixels[axis], metadata.plate_mm[axis]);
             pixel_mm[axis] = pixel_mm[axis].or(side);
         }
     }
     if version >= 517 {
         let software = u64::from(fields.u32(0x18)?);
-        about.software =
+        metadata.software =
             super::joined(&[fields.text(software, 32)?, fields.text(software + 36, 32)?]);
     }
     for (axis, side) in pixel_mm.into_iter().enumerate() {
         let side = side.or(super::positive(largest_mm));
-        about.pixel_mm[axis] =
+        metadata.pixel_mm[axis] =
             side.ok_or_else(|| PrintFileError::bad_setting("HEADER", "pixel size"))?;
     }
-    Ok(about)
+    Ok(metadata)
 }
 
 type Table = (Vec<Layer>, Vec<std::ops::Range<u64>>);

@@ -4,7 +4,7 @@ use serde::Serialize;
 
 use super::finding::{Faults, Tally, of_settings};
 use super::mask::Collector;
-use super::{About, FileFinding, Layer, LayerFault, Mask, PrintFile};
+use super::{FileFinding, Layer, LayerFault, Mask, Metadata, PrintFile};
 use crate::parallel;
 use crate::progress::{Cancelled, Progress, report};
 
@@ -15,7 +15,7 @@ use crate::progress::{Cancelled, Progress, report};
 pub struct Inspection {
     /// Metadata of the print as a whole.
     #[serde(flatten)]
-    pub about: About,
+    pub metadata: Metadata,
     /// Number of layers.
     pub layers: usize,
     /// Top of the last layer whose top is a finite number, in millimetres.
@@ -94,13 +94,13 @@ fn look_through(
     progress: &mut Progress<'_>,
 ) -> Result<Inspection, Cancelled> {
     report(progress, 0.0)?;
-    let (about, layers) = (file.about(), file.layers());
-    let mut warnings = of_settings(about, layers);
+    let (metadata, layers) = (file.metadata(), file.layers());
+    let mut warnings = of_settings(metadata, layers);
     warnings.extend(file.contents.findings.iter().cloned());
 
     let mut layer_values = Vec::with_capacity(layers.len());
     let (mut black, mut faults) = (Tally::default(), Faults::default());
-    let pixel_mm2 = about.pixel_mm[0] * about.pixel_mm[1];
+    let pixel_mm2 = metadata.pixel_mm[0] * metadata.pixel_mm[1];
     let mut volume_mm3 = 0.0;
     let has_masks = take.is_some();
     parallel::map_in_groups(
@@ -153,7 +153,7 @@ fn look_through(
     }
     let mut tops_mm = layers.iter().map(|layer| layer.z_mm);
     Ok(Inspection {
-        about: about.clone(),
+        metadata: metadata.clone(),
         layers: layers.len(),
         height_mm: tops_mm.rfind(|z_mm| z_mm.is_finite()).unwrap_or(0.0),
         thickness_range_mm: range(layers.iter().map(|layer| layer.thickness_mm)),
@@ -170,9 +170,9 @@ fn light(
     layer: usize,
     has_mask: bool,
 ) -> (Light, Option<Mask>, Option<LayerFault>) {
-    let about = file.about();
+    let metadata = file.metadata();
     let mut light = Light::default();
-    let mut collector = has_mask.then(|| Collector::new(about.pixels[0]));
+    let mut collector = has_mask.then(|| Collector::new(metadata.pixels[0]));
     let decoded = file.runs(layer, &mut |grey, count| {
         if let Some(collector) = &mut collector {
             collector.run(grey, count);
@@ -190,7 +190,7 @@ fn light(
     });
     let mask = collector.map(|collector| {
         let stored = collector.finish();
-        stored.seen_from_above(about.pixels, about.flips())
+        stored.seen_from_above(metadata.pixels, metadata.flips())
     });
     (light, mask, decoded.err())
 }

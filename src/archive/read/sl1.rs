@@ -7,11 +7,11 @@
 use std::collections::HashMap;
 use std::path::Path;
 
-use super::about::with_thicknesses;
 use super::bytes::clean;
 use super::container::Archive;
+use super::metadata::with_thicknesses;
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use super::{Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, positive};
 
 const CONFIG: &str = "config.ini";
 const SLICER: &str = "prusaslicer.ini";
@@ -68,7 +68,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let is_preview = |name: &String| name.starts_with("thumbnail/") && is_png(name);
     let previews = archive.names().filter(is_preview);
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             software: config.get("prusaSlicerVersion").and_then(clean),
             printer: config.get("printerModel").and_then(clean),
             resin: config.get("materialName").and_then(clean),
@@ -87,7 +87,7 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
             transition_layers: config.number("numFade").map(|layers| layers as u32),
             print_time_s: config.number("printTime"),
             volume_ml: config.number("usedMaterial"),
-            ..About::new(Format::Sl1, [width, height], pixel_mm)
+            ..Metadata::new(Format::Sl1, [width, height], pixel_mm)
         },
         layers: with_thicknesses((0..layers).map(layer).collect()),
         coding: Coding::Png,

@@ -2,10 +2,10 @@
 
 use serde_json::Value;
 
-use super::about::with_thicknesses;
 use super::container::Archive;
+use super::metadata::with_thicknesses;
 use super::preview::Picture;
-use super::{About, Coding, Contents, Format, Layer, Places, PrintFileError, positive};
+use super::{Coding, Contents, Format, Layer, Metadata, Places, PrintFileError, positive};
 
 const FILE: &str = "config.json";
 
@@ -29,14 +29,14 @@ pub fn read(archive: &mut Archive<'_>) -> Result<Contents, PrintFileError> {
     let previews = ["preview/huge.png", "preview/tiny.png"].into_iter();
     let previews = previews.filter(|name| archive.has(name));
     Ok(Contents {
-        about: About {
+        metadata: Metadata {
             plate_mm: [Some(length_x), Some(length_y), None],
             layer_mm: size["LayerHeight"].as_f64(),
             exposure_s: properties["Exposure"]["LightOnTime"].as_f64(),
             bottom_exposure_s: bottom["LightOnTime"].as_f64(),
             bottom_layers: bottom["Count"].as_u64().map(|layers| layers as u32),
             uses_layer_values: Some(true),
-            ..About::new(Format::Uvj, [width, height], pitch)
+            ..Metadata::new(Format::Uvj, [width, height], pitch)
         },
         layers: with_thicknesses(layers.ok_or_else(|| bad("Z"))?),
         coding: Coding::Png,

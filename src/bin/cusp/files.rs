@@ -94,14 +94,14 @@ pub fn load(model: &Path, options: &ReadOptions) -> Result<LoadedModel, Failure>
 
 /// The first bytes and the length of a regular file. A pipe can be opened only once.
 fn head_of(path: &Path) -> io::Result<Option<(Vec<u8>, u64)>> {
-    let about = fs::metadata(path)?;
-    if !about.is_file() {
+    let metadata = fs::metadata(path)?;
+    if !metadata.is_file() {
         return Ok(None);
     }
     let mut head = Vec::new();
     let file = fs::File::open(path)?;
     file.take(HEAD_BYTES as u64).read_to_end(&mut head)?;
-    Ok(Some((head, about.len())))
+    Ok(Some((head, metadata.len())))
 }
 
 /// A file of weights, not yet matched to a model.

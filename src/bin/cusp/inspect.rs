@@ -3,7 +3,7 @@
 use std::path::{Path, PathBuf};
 
 use clap::Args;
-use cusp_slicer::archive::read::{About, Inspection, PrintFile, inspect as look_through};
+use cusp_slicer::archive::read::{Inspection, Metadata, PrintFile, inspect as look_through};
 
 use crate::failure::{Failure, in_file};
 use crate::files::{Output, read};
@@ -74,17 +74,17 @@ fn write_mask(
 }
 
 fn describe(inspection: &Inspection) -> String {
-    let about = &inspection.about;
-    let mut lines = vec![("format", format_line(about))];
-    lines.extend(about.printer.clone().map(|printer| ("printer", printer)));
-    if let [Some(x), Some(y), z] = about.plate_mm {
+    let metadata = &inspection.metadata;
+    let mut lines = vec![("format", format_line(metadata))];
+    lines.extend(metadata.printer.clone().map(|printer| ("printer", printer)));
+    if let [Some(x), Some(y), z] = metadata.plate_mm {
         let z = z.map_or(String::new(), |z| format!(" × {z}"));
         lines.push(("plate", format!("{} × {}{z} mm", rounded(x), rounded(y))));
     }
-    lines.push(("masks", masks_line(about)));
+    lines.push(("masks", masks_line(metadata)));
     lines.push(("layers", layers_line(inspection)));
     lines.extend(exposure_line(inspection).map(|line| ("exposure", line)));
-    let time = about.print_time_s.filter(|&time_s| time_s > 0.0);
+    let time = metadata.print_time_s.filter(|&time_s| time_s > 0.0);
     lines.extend(time.map(|time_s| ("time", duration(time_s))));
     lines.push(("resin", resin_line(inspection)));
     if !inspection.previews.is_empty() {
@@ -98,18 +98,18 @@ fn describe(inspection: &Inspection) -> String {
     lines.collect::<Vec<_>>().join("\n")
 }
 
-fn format_line(about: &About) -> String {
-    let version = about.version.as_ref();
+fn format_line(metadata: &Metadata) -> String {
+    let version = metadata.version.as_ref();
     let version = version.map_or(String::new(), |version| format!(" {version}"));
-    let software = about.software.as_ref();
+    let software = metadata.software.as_ref();
     let software = software.map_or(String::new(), |software| format!(", by {software}"));
-    format!("{}{version}{software}", about.format.name())
+    format!("{}{version}{software}", metadata.format.name())
 }
 
-fn masks_line(about: &About) -> String {
-    let [width, height] = about.pixels;
-    let [pitch_x, pitch_y] = about.pixel_mm;
-    let mirrored = match (about.is_mirrored_x, about.is_mirrored_y) {
+fn masks_line(metadata: &Metadata) -> String {
+    let [width, height] = metadata.pixels;
+    let [pitch_x, pitch_y] = metadata.pixel_mm;
+    let mirrored = match (metadata.is_mirrored_x, metadata.is_mirrored_y) {
         (Some(true), Some(true)) => ", mirrored in x and y",
         (Some(true), _) => ", mirrored in x",
         (_, Some(true)) => ", mirrored in y",
@@ -123,7 +123,7 @@ fn layers_line(inspection: &Inspection) -> String {
     let thickness = inspection
         .thickness_range_mm
         .map_or(String::new(), |range| format!(" of {} mm", from_to(range)));
-    let counts = match inspection.about.uses_layer_values {
+    let counts = match inspection.metadata.uses_layer_values {
         Some(false) => ", whose own values the printer ignores",
         _ => "",
     };
@@ -134,10 +134,10 @@ fn layers_line(inspection: &Inspection) -> String {
 }
 
 fn exposure_line(inspection: &Inspection) -> Option<String> {
-    let about = &inspection.about;
+    let metadata = &inspection.metadata;
     let range = inspection.exposure_range_s;
-    let usual = range.or(about.exposure_s.map(|usual_s| [usual_s; 2]))?;
-    let bottom = match (about.bottom_layers, about.bottom_exposure_s) {
+    let usual = range.or(metadata.exposure_s.map(|usual_s| [usual_s; 2]))?;
+    let bottom = match (metadata.bottom_layers, metadata.bottom_exposure_s) {
         (Some(1..), Some(bottom_s)) => format!("bottom layers {} s", rounded(bottom_s)),
         (None, Some(bottom_s)) => format!("first layer {} s", rounded(bottom_s)),
         _ => return Some(format!("{} s", from_to(usual))),
@@ -146,10 +146,10 @@ fn exposure_line(inspection: &Inspection) -> Option<String> {
 }
 
 fn resin_line(inspection: &Inspection) -> String {
-    let about = &inspection.about;
-    let name = about.resin.as_ref();
+    let metadata = &inspection.metadata;
+    let name = metadata.resin.as_ref();
     let name = name.map_or(String::new(), |name| format!("{name}, "));
-    let stated = about.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
+    let stated = metadata.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
     let stated = stated.map_or(String::new(), |volume_ml| {
         format!("{volume_ml:.1} ml by the file, ")
     });

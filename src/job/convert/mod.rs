@@ -11,9 +11,9 @@ use settings::Exposures;
 use super::resolve::find_printer;
 use super::{OptionsError, SCHEMA};
 use crate::archive::read::{
-    About, FileFinding, Flips, Inspection, Layer as LayerRead, Preview, PrintFile,
+    FileFinding, Flips, Inspection, Layer as LayerRead, Metadata, Preview, PrintFile,
 };
-use crate::archive::{self, ArchiveError, Layer, Look, Manifest, PrintJob, Screen};
+use crate::archive::{self, ArchiveError, Layer, Manifest, PreviewScene, PrintJob, Screen};
 use crate::format::Format;
 use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
 use crate::parallel;
@@ -190,8 +190,8 @@ impl<'a> Conversion<'a> {
         if let Some(finding) = unsound {
             return Err(ConvertError::Unsound(finding.clone()));
         }
-        let about = file.about();
-        let old = about.known_printer();
+        let metadata = file.metadata();
+        let old = metadata.known_printer();
         let named = find_printer(target.printer.as_ref())?;
         let printer = named.or_else(|| old.clone());
         let format = target
@@ -202,7 +202,7 @@ impl<'a> Conversion<'a> {
             return Err(ArchiveError::NoMasks { format }.into());
         }
 
-        let (screen, flips, says_mirroring) = screen(about, printer.as_deref(), target.mirror);
+        let (screen, flips, says_mirroring) = screen(metadata, printer.as_deref(), target.mirror);
         let greys = inspection.layer_values.iter();
         let has_greys = greys
             .filter_map(|layer| layer.grey_pixels)
@@ -218,7 +218,7 @@ impl<'a> Conversion<'a> {
         for side_mm in screen.pitch_mm {
             Quantity::Pitch.check(side_mm)?;
         }
-        let layers_read = settings::without_noise(about, file.layers());
+        let layers_read = settings::without_noise(metadata, file.layers());
         if let Some(printer) = &printer {
             check_printer(printer, &screen, &layers_read)?;
         }
@@ -226,7 +226,7 @@ impl<'a> Conversion<'a> {
             resin,
             exposure_s,
             transition_layers,
-        } = settings::exposures(about, &layers_read, target.resin.as_ref())?;
+        } = settings::exposures(metadata, &layers_read, target.resin.as_ref())?;
         resin.check()?;
         let layers: Vec<Layer> = layers_read
             .iter()
@@ -243,14 +243,14 @@ impl<'a> Conversion<'a> {
         if target.resin.is_none() {
             losses.extend(settings::lost_moves(file.layers(), &resin));
         }
-        let (before, after) = (levels(about.format), levels(format));
+        let (before, after) = (levels(metadata.format), levels(format));
         if has_greys && after < before {
             losses.push(Loss::Greys { levels: after });
         }
         if !says_mirroring {
             losses.push(Loss::Mirroring);
         }
-        let stated_ml = about.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
+        let stated_ml = metadata.volume_ml.filter(|&volume_ml| volume_ml > 0.0);
         Ok(Self {
             file,
             format,
@@ -312,15 +312,15 @@ impl<'a> Conversion<'a> {
     }
 
     /// The largest preview of the file, or else its masks on top of each other.
-    fn look(&self) -> Look {
+    fn look(&self) -> PreviewScene {
         let previews = (0..self.file.previews()).filter_map(|place| self.file.preview(place));
         let largest =
             previews.max_by_key(|preview| u64::from(preview.width) * u64::from(preview.height));
-        largest.map_or_else(|| self.stacked(), |preview| look_of(&preview))
+        largest.map_or_else(|| self.stacked(), |preview| preview_scene(&preview))
     }
 
     /// Masks of layers spread over the height, the higher the brighter.
-    fn stacked(&self) -> Look {
+    fn stacked(&self) -> PreviewScene {
         /// Layers that are drawn.
         const LAYERS: usize = 64;
         /// Pixels of the longer side.
@@ -346,7 +346,7 @@ impl<'a> Conversion<'a> {
                 }
             }
         }
-        Look::from_picture([columns, rows], self.screen.pitch_mm, brightness)
+        PreviewScene::from_picture([columns, rows], self.screen.pitch_mm, brightness)
     }
 
     /// The manifest in a zip of masks, for a print without a plan.
@@ -354,7 +354,7 @@ impl<'a> Conversion<'a> {
         let screen = &self.screen;
         let manifest = json!({
             "schema": SCHEMA,
-            "converted_from": self.file.about().format,
+            "converted_from": self.file.metadata().format,
             "layers": self.layers.len(),
             "height_mm": self.layers.last().map_or(0.0, |layer| layer.z_mm),
             "print_time_s": self.print_time_s(),
@@ -376,8 +376,12 @@ impl<'a> Conversion<'a> {
 
 /// The screen of the new file without its anti-aliasing, how stored masks become masks seen from above, and whether that is
 /// known.
-fn screen(about: &About, printer: Option<&Printer>, mirror: Option<bool>) -> (Screen, Flips, bool) {
-    let is_mirrored = about.is_mirrored();
+fn screen(
+    metadata: &Metadata,
+    printer: Option<&Printer>,
+    mirror: Option<bool>,
+) -> (Screen, Flips, bool) {
+    let is_mirrored = metadata.is_mirrored();
     let wanted = mirror
         .or(printer.map(|printer| printer.is_mirrored))
         .or(is_mirrored);
@@ -385,11 +389,11 @@ fn screen(about: &About, printer: Option<&Printer>, mirror: Option<bool>) -> (Sc
     let wanted = wanted.unwrap_or(true);
     let flips = Flips {
         mirror_x: is_mirrored.unwrap_or(wanted),
-        ..about.flips()
+        ..metadata.flips()
     };
     let screen = Screen {
-        pixels: about.pixels_from_above(),
-        pitch_mm: about.pixel_mm_from_above(),
+        pixels: metadata.pixels_from_above(),
+        pitch_mm: metadata.pixel_mm_from_above(),
         is_mirrored: wanted,
         antialias: 1,
     };
@@ -450,14 +454,14 @@ fn levels(format: Format) -> u32 {
 }
 
 /// A picture in the greys of its colours.
-fn look_of(preview: &Preview) -> Look {
+fn preview_scene(preview: &Preview) -> PreviewScene {
     let pixels = preview.rgb.chunks_exact(3);
     // As bright as its colours look: ITU-R BT.601.
     let greys = pixels.map(|rgb| {
         let [red, green, blue] = [rgb[0], rgb[1], rgb[2]].map(u32::from);
         ((299 * red + 587 * green + 114 * blue) / 1000) as u8
     });
-    Look::from_picture([preview.width, preview.height], [1.0; 2], greys.collect())
+    PreviewScene::from_picture([preview.width, preview.height], [1.0; 2], greys.collect())
 }
 
 impl RunSource for Conversion<'_> {
@@ -488,7 +492,7 @@ impl RunReader for Reader<'_> {
 impl Conversion<'_> {
     /// The runs of a layer, turned the way that the new file has them.
     fn runs(&self, layer: usize) -> Vec<Run> {
-        let [width, height] = self.file.about().pixels;
+        let [width, height] = self.file.metadata().pixels;
         let mut collector = Collector::new(width);
         let decoded = self
             .file

@@ -1,7 +1,7 @@
 //! Heights, exposures, moves and rests of a conversion. Values that differ by noise alone count as one.
 
 use super::{ConvertError, LayerRead, Loss, SAME_MM};
-use crate::archive::read::About;
+use crate::archive::read::Metadata;
 use crate::archive::{Layer, SAME_S, Schedule};
 use crate::format::{Format, FormatThicknesses};
 use crate::resin::Resin;
@@ -15,11 +15,11 @@ const LONGEST_FADE: usize = u16::MAX as usize;
 ///
 /// If all are of one thickness, or all but the first, each ends at the height that this thickness gives it. Other layers
 /// stay as they are.
-pub(super) fn without_noise(about: &About, layers: &[LayerRead]) -> Vec<LayerRead> {
+pub(super) fn without_noise(metadata: &Metadata, layers: &[LayerRead]) -> Vec<LayerRead> {
     let mut layers = layers.to_vec();
     for first in 0..=1 {
         let bottom_mm = layers[..first].last().map_or(0.0, |layer| layer.z_mm);
-        let Some(thickness_mm) = one_thickness(about, &layers[first..], bottom_mm) else {
+        let Some(thickness_mm) = one_thickness(metadata, &layers[first..], bottom_mm) else {
             continue;
         };
         for (below, layer) in layers[first..].iter_mut().enumerate() {
@@ -33,17 +33,17 @@ pub(super) fn without_noise(about: &About, layers: &[LayerRead]) -> Vec<LayerRea
 }
 
 /// The thickness of layers that stand on `bottom_mm`, if they have only one: the nominal one where it agrees, or else the mean.
-fn one_thickness(about: &About, layers: &[LayerRead], bottom_mm: f64) -> Option<f64> {
+fn one_thickness(metadata: &Metadata, layers: &[LayerRead], bottom_mm: f64) -> Option<f64> {
     let height_mm = layers.last()?.z_mm - bottom_mm;
     let count = layers.len() as f64;
     let mean_mm = height_mm / count;
     // A nominal thickness that counts for all layers is taken if it is within noise. Elsewhere it might be rounded: then it is
     // off by the same in every layer, whereas the noise of n thicknesses adds up to √n times that of one.
-    let room_mm = match about.uses_layer_values {
+    let room_mm = match metadata.uses_layer_values {
         Some(false) => SAME_MM,
         _ => SAME_MM / count.sqrt(),
     };
-    let nominal_mm = about
+    let nominal_mm = metadata
         .layer_mm
         .filter(|nominal_mm| (nominal_mm - mean_mm).abs() <= room_mm);
     let thickness_mm = nominal_mm.unwrap_or(to_nanometres(mean_mm));
@@ -75,7 +75,7 @@ pub(super) struct Exposures {
 
 /// The resin of the new file, and the exposure of each layer.
 pub(super) fn exposures(
-    about: &About,
+    metadata: &Metadata,
     layers: &[LayerRead],
     resin: Option<&Resin>,
 ) -> Result<Exposures, ConvertError> {
@@ -87,15 +87,15 @@ pub(super) fn exposures(
             transition_layers: 0,
         });
     }
-    let nominal = nominal(about);
-    let exposure_s = stated_s(about, layers, nominal.as_ref())?;
+    let nominal = nominal(metadata);
+    let exposure_s = stated_s(metadata, layers, nominal.as_ref())?;
     let schedule = nominal
         .filter(|nominal| nominal.fits(exposure_s.iter().copied()))
-        .or_else(|| found(about, &exposure_s));
+        .or_else(|| found(metadata, &exposure_s));
     // Without a schedule, layers that are exposed like the first one are bottom layers, if the file does not count them.
     let bottom_layers = schedule.map(|schedule| schedule.bottom_layers);
     let bottom_layers = bottom_layers
-        .or(about.bottom_layers.map(|layers| layers as usize))
+        .or(metadata.bottom_layers.map(|layers| layers as usize))
         .unwrap_or_else(|| like_first(&exposure_s));
     let transition_layers = schedule.map_or(0, |schedule| schedule.transition_layers);
     let exposure_s: Vec<f64> = match schedule {
@@ -117,7 +117,7 @@ pub(super) fn exposures(
     let [lift_mm, lift_mm_min, return_mm_min] =
         moves.unwrap_or([default.lift_mm, default.lift_mm_min, default.return_mm_min]);
     let resin = Resin {
-        name: about.resin.clone().unwrap_or(default.name),
+        name: metadata.resin.clone().unwrap_or(default.name),
         layer_mm: usual.thickness_mm,
         exposure_s: usual_s,
         bottom_layers,
@@ -126,7 +126,7 @@ pub(super) fn exposures(
         lift_mm,
         lift_mm_min,
         return_mm_min,
-        density_g_ml: density(about).unwrap_or(default.density_g_ml),
+        density_g_ml: density(metadata).unwrap_or(default.density_g_ml),
         ..default
     };
     Ok(Exposures {
@@ -146,12 +146,12 @@ fn positive(value: Option<f64>) -> Option<f64> {
 }
 
 /// The exposures that the head of a file states for all layers. Without an exposure of bottom layers, there are none.
-fn nominal(about: &About) -> Option<Schedule> {
-    let usual_s = positive(about.exposure_s)?;
-    let transition_layers = about.transition_layers.unwrap_or(0) as usize;
-    let bottom_s = positive(about.bottom_exposure_s);
+fn nominal(metadata: &Metadata) -> Option<Schedule> {
+    let usual_s = positive(metadata.exposure_s)?;
+    let transition_layers = metadata.transition_layers.unwrap_or(0) as usize;
+    let bottom_s = positive(metadata.bottom_exposure_s);
     Some(Schedule {
-        bottom_layers: about.bottom_layers.unwrap_or(0) as usize,
+        bottom_layers: metadata.bottom_layers.unwrap_or(0) as usize,
         bottom_s: bottom_s.unwrap_or(usual_s),
         transition_layers: if bottom_s.is_some() && transition_layers <= LONGEST_FADE {
             transition_layers
@@ -164,12 +164,12 @@ fn nominal(about: &About) -> Option<Schedule> {
 
 /// The exposure of each layer by the file, in seconds.
 fn stated_s(
-    about: &About,
+    metadata: &Metadata,
     layers: &[LayerRead],
     nominal: Option<&Schedule>,
 ) -> Result<Vec<f64>, ConvertError> {
     // CTB's printers take the exposures of layers whatever the file says of their values.
-    let is_ignored = about.uses_layer_values == Some(false) && about.format != Format::Ctb;
+    let is_ignored = metadata.uses_layer_values == Some(false) && metadata.format != Format::Ctb;
     let exposure_of = |(place, layer): (usize, &LayerRead)| {
         let stated_s = positive(layer.exposure_s);
         let nominal_s = nominal.map(|nominal| nominal.exposure_s(place));
@@ -184,9 +184,9 @@ fn stated_s(
 }
 
 /// Bottom layers, a fade and one exposure above, if the exposures are no more than that.
-fn found(about: &About, exposure_s: &[f64]) -> Option<Schedule> {
+fn found(metadata: &Metadata, exposure_s: &[f64]) -> Option<Schedule> {
     let (bottom_s, usual_s) = (*exposure_s.first()?, *exposure_s.last()?);
-    let stated = about.bottom_layers.map(|layers| layers as usize);
+    let stated = metadata.bottom_layers.map(|layers| layers as usize);
     let counts = stated.into_iter().chain([like_first(exposure_s)]);
     let schedules = counts.filter_map(|bottom_layers| {
         let upper = exposure_s.get(bottom_layers..)?;
@@ -235,8 +235,8 @@ pub(super) fn check_exposures(
 }
 
 /// The density that weight and volume say, if both are stated.
-fn density(about: &About) -> Option<f64> {
-    let density = about.weight_g? / about.volume_ml?;
+fn density(metadata: &Metadata) -> Option<f64> {
+    let density = metadata.weight_g? / metadata.volume_ml?;
     (0.5..5.0).contains(&density).then_some(density)
 }
 

@@ -5,11 +5,11 @@ use std::borrow::Cow;
 use super::measured::Part;
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
+use crate::argsort::argsort;
 use crate::job::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
 use crate::ldi::LdiError;
-use crate::order::ascending;
 use crate::plan::optimal::Objective;
-use crate::plan::preferred::{Price, SnapPlanes};
+use crate::plan::snap_cost::{Price, SnapPlanes};
 use crate::plan::tradeoff::{self, TradeoffPoint};
 use crate::plan::uniform::layers_above;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
@@ -299,7 +299,7 @@ impl<'a> Planning<'a> {
         };
         // The thinnest of as many layers comes first.
         let best_by = |cost: fn(&(f64, usize, f64)) -> f64| {
-            let order = ascending(candidates.iter().map(cost)).into_iter();
+            let order = argsort(candidates.iter().map(cost)).into_iter();
             let mut plans = order.filter_map(|place| {
                 let (layer_mm, _, print_time_s) = candidates[place];
                 let plan = uniform::plan(bins, self.height_mm, layer_mm, first_layer).ok()?;

@@ -4,7 +4,7 @@ use super::measured::Part;
 use super::parts::{Layering, Target};
 use crate::plan::PlanError;
 use crate::plan::optimal::{self, Objective};
-use crate::plan::preferred::SnapPlanes;
+use crate::plan::snap_cost::SnapPlanes;
 use crate::plan::tradeoff::{self, Goal};
 use crate::profile::largest::{LargestError, Strictness};
 use crate::profile::{LayerErrors, Metric, Source};

@@ -6,7 +6,7 @@ use super::parts::{Layering, Target, Thicknesses};
 use crate::grid::{Bins, Grid};
 use crate::job::{Error, Minimize, Planner, Work};
 use crate::model::{Mesh, saliency};
-use crate::plan::timed::MOST_BOTTOM_LAYERS;
+use crate::plan::minimum_time::MOST_BOTTOM_LAYERS;
 use crate::profile::Metric;
 
 /// Hits that a processor finds in a second, at most.

@@ -3,7 +3,7 @@
 use super::device::{Gpu, WORD};
 use super::failed;
 use super::scan::{Rows, Scan};
-use super::tiles::{Meetings, Region};
+use super::tiles::{Intersections, Region};
 use crate::ldi::layout::FILL;
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
@@ -55,7 +55,7 @@ impl<'a> Filler<'a> {
     }
 
     /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
-    pub(super) async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+    pub(super) async fn sample(&self, region: Region) -> Result<Option<Intersections>, LdiError> {
         let Gpu { device, queue, .. } = self.gpu;
         let Some(rows) = Rows::new(self.gpu, region) else {
             return Ok(None);
@@ -98,17 +98,17 @@ impl<'a> Filler<'a> {
         let filled = [&mesh[..], &rest].concat();
         self.draw(&mut encoder, &canvas, &self.fill, &filled);
         queue.submit([encoder.finish()]);
-        let meetings = Meetings {
+        let intersections = Intersections {
             offsets: rows.read_offsets(self.gpu).await?,
             facets: self.gpu.read(&facets, 0, hits).await?,
         };
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
         facets.destroy();
-        if u64::from(meetings.offsets[region.rays()]) != hits {
+        if u64::from(intersections.offsets[region.rays()]) != hits {
             return Err(failed(GpuFault::BadOffsets));
         }
-        Ok(Some(meetings))
+        Ok(Some(intersections))
     }
 
     fn draw(

@@ -19,7 +19,7 @@ pub use tiles::Tiling;
 
 use self::fill::Filler;
 use self::peel::Peeler;
-use self::tiles::{Meetings, Region};
+use self::tiles::{Intersections, Region};
 use super::projection::Projection;
 use super::{GpuFault, Ldi, LdiError};
 use crate::grid::Grid;
@@ -102,7 +102,7 @@ enum Sampler<'a> {
 
 impl Sampler<'_> {
     /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
-    async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+    async fn sample(&self, region: Region) -> Result<Option<Intersections>, LdiError> {
         match self {
             Self::Fill(filler) => filler.sample(region).await,
             Self::Peel(peeler) => peeler.sample(region).await,
@@ -121,7 +121,7 @@ async fn find(
     tiling: Tiling,
     method: Method,
     progress: &mut Progress<'_>,
-) -> Result<Vec<(Region, Meetings)>, LdiError> {
+) -> Result<Vec<(Region, Intersections)>, LdiError> {
     let sampler = match method {
         Method::Fill => Sampler::Fill(Filler::new(gpu, projection)?),
         Method::Peel => Sampler::Peel(Peeler::new(gpu, projection)),

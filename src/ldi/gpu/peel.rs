@@ -12,11 +12,11 @@ use super::device::{Gpu, WORD};
 use super::failed;
 use super::layers::{ALL, FACET_BYTES, Layers, clear, render_pipeline};
 use super::scan::{Rows, Scan};
-use super::tiles::{Meetings, Region};
+use super::tiles::{Intersections, Region};
+use crate::argsort::argsort;
 use crate::ldi::layout::{COLLECT, Cell};
 use crate::ldi::projection::Projection;
 use crate::ldi::{GpuFault, LdiError};
-use crate::order::ascending;
 
 /// Number of facets from which a ray is left to the CPU. For the few rays as deep, that is faster than a pass for every
 /// two facets.
@@ -43,7 +43,7 @@ impl<'a> Peeler<'a> {
             let [a, b, c] = projection.heights(facet).map(f64::from);
             a + b + c
         });
-        let order = ascending(heights)
+        let order = argsort(heights)
             .into_iter()
             .filter(|&facet| projection.outline(facet).is_some());
         let collect = gpu
@@ -61,7 +61,7 @@ impl<'a> Peeler<'a> {
     }
 
     /// The facets that the rays of one tile meet, or `None` if they do not fit into a buffer.
-    pub async fn sample(&self, region: Region) -> Result<Option<Meetings>, LdiError> {
+    pub async fn sample(&self, region: Region) -> Result<Option<Intersections>, LdiError> {
         let Some(rows) = Rows::new(self.gpu, region) else {
             return Ok(None);
         };
@@ -89,7 +89,8 @@ impl<'a> Peeler<'a> {
         places.destroy();
         // Buffers of a lost device may read as zeros.
         self.gpu.check()?;
-        self.meetings(region, &cells, &offsets, &found).map(Some)
+        self.intersections(region, &cells, &offsets, &found)
+            .map(Some)
     }
 
     /// Runs the first pass, over all cells, and counts the facets of each ray.
@@ -154,34 +155,36 @@ impl<'a> Peeler<'a> {
     }
 
     /// The facets that rays meet, from their places in the lists of the cells.
-    fn meetings(
+    fn intersections(
         &self,
         region: Region,
         cells: &Cells,
         offsets: &[u32],
         places: &[u32],
-    ) -> Result<Meetings, LdiError> {
+    ) -> Result<Intersections, LdiError> {
         let deep = self.facets_of_deep_rays(region, offsets);
-        let mut meetings = Meetings {
+        let mut intersections = Intersections {
             offsets: Vec::with_capacity(offsets.len()),
             facets: Vec::with_capacity(places.len()),
         };
-        meetings.offsets.push(0);
+        intersections.offsets.push(0);
         for (ray, ends) in offsets.windows(2).enumerate() {
             if let Some(facets) = deep.get(&ray) {
-                meetings.facets.extend(facets);
+                intersections.facets.extend(facets);
             } else {
                 let places = places.get(ends[0] as usize..ends[1] as usize);
                 for &place in places.ok_or_else(|| failed(GpuFault::BadOffsets))? {
                     // A facet that was counted and not peeled leaves a zero.
                     let facet = cells.facets().get((place as usize).wrapping_sub(1));
                     let facet = facet.ok_or_else(|| failed(GpuFault::BadOffsets))?;
-                    meetings.facets.push(*facet);
+                    intersections.facets.push(*facet);
                 }
             }
-            meetings.offsets.push(meetings.facets.len() as u32);
+            intersections
+                .offsets
+                .push(intersections.facets.len() as u32);
         }
-        Ok(meetings)
+        Ok(intersections)
     }
 
     /// The facets of the rays whose count is too great, by ray.
@@ -201,14 +204,14 @@ impl<'a> Peeler<'a> {
     }
 
     /// The facets that the rays of a region meet, without the GPU.
-    fn on_cpu(&self, region: Region) -> Meetings {
+    fn on_cpu(&self, region: Region) -> Intersections {
         let mut rays = vec![Vec::new(); region.rays()];
         self.for_each_meeting(region, |ray, facet| rays[ray].push(facet));
         let ends = rays.iter().scan(0, |end, facets| {
             *end += facets.len() as u32;
             Some(*end)
         });
-        Meetings {
+        Intersections {
             offsets: std::iter::once(0).chain(ends).collect(),
             facets: rays.concat(),
         }
@@ -262,7 +265,7 @@ impl CellsByDepth {
             depths.filter(|&count| count < DEEP).max().unwrap_or(0)
         };
         let depths: Vec<u32> = (0..cells.count()).map(depth).collect();
-        let order = ascending(depths.iter().map(|&depth| -f64::from(depth)));
+        let order = argsort(depths.iter().map(|&depth| -f64::from(depth)));
         Self {
             depths: order.iter().map(|&cell| depths[cell]).collect(),
             cells: order,

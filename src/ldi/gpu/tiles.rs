@@ -39,7 +39,7 @@ pub struct Region {
 /// The facets that the rays of a region meet, in compressed rows: those of ray i are
 /// `facets[offsets[i]..offsets[i + 1]]`, in any order.
 #[derive(Debug)]
-pub struct Meetings {
+pub struct Intersections {
     /// Start of each ray's facets, and the end of the last ray's.
     pub offsets: Vec<u32>,
     /// The facets of all rays.
@@ -51,16 +51,16 @@ pub(super) fn join(
     projection: &Projection<'_>,
     grid: &Grid,
     classes: FacetClasses,
-    sampled: &[(Region, Meetings)],
+    sampled: &[(Region, Intersections)],
     progress: &mut Progress<'_>,
 ) -> Result<Ldi, LdiError> {
     let mut offsets: Vec<u32> = assemble::zeroed(grid.pixels() + 1)?;
-    for (region, meetings) in sampled {
+    for (region, intersections) in sampled {
         for row in 0..region.height {
             let from = (row * region.width) as usize;
             let to = ((region.row + row) * grid.width + region.column) as usize;
             for column in 0..region.width as usize {
-                let [first, end] = [0, 1].map(|next| meetings.offsets[from + column + next]);
+                let [first, end] = [0, 1].map(|next| intersections.offsets[from + column + next]);
                 // Offsets that overflow 32 bits would decrease.
                 offsets[to + column + 1] = end
                     .checked_sub(first)
@@ -70,13 +70,14 @@ pub(super) fn join(
     }
     assemble::accumulate(&mut offsets)?;
     let mut facets: Vec<u32> = assemble::zeroed(offsets[grid.pixels()] as usize)?;
-    for (region, meetings) in sampled {
+    for (region, intersections) in sampled {
         for row in 0..region.height {
             // The hits of a tile's row are contiguous in the tile and in the grid.
             let from = (row * region.width) as usize;
-            let from = meetings.offsets[from]..meetings.offsets[from + region.width as usize];
+            let from =
+                intersections.offsets[from]..intersections.offsets[from + region.width as usize];
             let to = offsets[((region.row + row) * grid.width + region.column) as usize];
-            let row = &meetings.facets[from.start as usize..from.end as usize];
+            let row = &intersections.facets[from.start as usize..from.end as usize];
             facets[to as usize..to as usize + row.len()].copy_from_slice(row);
         }
     }

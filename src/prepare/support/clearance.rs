@@ -11,7 +11,7 @@ use glam::{DVec3, Vec3};
 use crate::ldi::LdiError;
 use crate::parallel;
 use crate::prepare::columns::{Columns, MARGIN, To};
-use crate::prepare::nets::Lattice;
+use crate::prepare::surface_nets::Lattice;
 use crate::progress::{Progress, report};
 
 /// Columns from one node to the next.

@@ -4,10 +4,10 @@ use glam::DVec3;
 
 use super::super::surface::{self, Squares, Surface};
 use super::SupportProfile;
-use crate::disjoint;
+use crate::argsort::sort_by_number;
 use crate::ldi::Ldi;
 use crate::model::{Across, Mesh};
-use crate::order::sort_by_number;
+use crate::union_find;
 
 /// A place on the surface that needs a support.
 #[derive(Debug, Clone, Copy, PartialEq)]
@@ -196,7 +196,7 @@ const NO_CORNER: usize = usize::MAX;
 /// that level edges join. Where sheets meet in a vertex alone, its corners are in several groups.
 fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
     let mut parent: Vec<u32> = (0..3 * facets.len() as u32).collect();
-    let mut unite = |a: usize, b: usize| disjoint::unite(&mut parent, a as u32, b as u32);
+    let mut unite = |a: usize, b: usize| union_find::unite(&mut parent, a as u32, b as u32);
     // A corner of each vertex whose edges do not identify the adjacent facet.
     let mut whole = vec![NO_CORNER; mesh.vertices.len()];
     for (facet, corners) in facets.iter().enumerate() {
@@ -230,7 +230,7 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
         }
     }
     (0..3 * facets.len() as u32)
-        .map(|corner| disjoint::find(&mut parent, corner))
+        .map(|corner| union_find::find(&mut parent, corner))
         .collect()
 }
 

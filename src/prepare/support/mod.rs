@@ -356,7 +356,7 @@ pub fn support(
     let mut unreached: Vec<SupportPoint> = missed.iter().map(point).collect();
     let mut points = Vec::new();
     // From the highest down, so that others join a pillar as it passes.
-    let order = crate::order::ascending(contacts.iter().map(|it| -it.at.z));
+    let order = crate::argsort::argsort(contacts.iter().map(|it| -it.at.z));
     for (done, contact) in order.iter().map(|&it| &contacts[it]).enumerate() {
         report(progress, 0.8 + 0.2 * done as f64 / order.len() as f64)?;
         let to = if trees.add(contact) {

@@ -2,7 +2,7 @@
 
 use glam::DVec3;
 
-use crate::order::sort_by_number;
+use crate::argsort::sort_by_number;
 use crate::prepare::round::{circle, rim};
 use crate::prepare::shell::Shell;
 

@@ -9,7 +9,7 @@ use super::SupportProfile;
 use super::clearance::{Clearance, End, is_steep};
 use super::contacts::Contact;
 use super::shapes::Shapes;
-use crate::order;
+use crate::argsort;
 use crate::prepare::round::circle;
 use crate::prepare::shell::Shell;
 
@@ -214,7 +214,7 @@ impl<'a> Trees<'a> {
             .filter(|it| it.0 < most_mm)
             .collect();
         let need_mm = self.need_mm() as f32;
-        let joined = order::ascending(near.iter().map(|it| it.0)).into_iter();
+        let joined = argsort::argsort(near.iter().map(|it| it.0)).into_iter();
         let joined = joined.map(|it| near[it].1).take(TRIES);
         let mut joined = joined.filter(|&node| {
             self.bears_more(node)

@@ -1,6 +1,6 @@
 //! Masks that no model gives: runs of every length at which chunks change, on the largest screens, written without slicing.
 
-use cusp_slicer::archive::{self, Layer, Look, MaskSource, PrintJob, Screen};
+use cusp_slicer::archive::{self, Layer, MaskSource, PreviewScene, PrintJob, Screen};
 use cusp_slicer::format::Format;
 use cusp_slicer::ldi::RayImage;
 use cusp_slicer::mask::{LayerRuns, Run, RunReader, RunSource};
@@ -83,7 +83,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
         resin_ml: 1.0,
         printer: None,
         best_uniform: &|| None,
-        look: &|| Look::new(&mesh, RayImage::Kept(&ldi)),
+        look: &|| PreviewScene::new(&mesh, RayImage::Kept(&ldi)),
         manifest: &|| unreachable!("the format has none"),
     };
     let bytes = archive::write(Format::Goo, &job, Vec::new(), &mut silent).unwrap();
