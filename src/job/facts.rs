@@ -1,7 +1,5 @@
 //! Facts that forms and documents need before anything is sliced: defaults, bounds, formats, and the options that rays depend on.
 
-use std::collections::BTreeMap;
-
 use serde::Serialize;
 
 use super::Options;
@@ -47,9 +45,8 @@ pub struct Facts {
     /// Default thresholds of a check.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<Limits>"))]
     pub limits: Limits,
-    /// Default tolerance of each metric on resin printers, in the metric's unit. For volume, a job may need more.
-    #[cfg_attr(target_arch = "wasm32", tsify(type = "Record<Metric, number>"))]
-    pub tolerances: BTreeMap<&'static str, f64>,
+    /// The metrics, in the order of lists.
+    pub metrics: [MetricFacts; Metric::ALL.len()],
     /// The print formats, in the order of lists.
     pub formats: Vec<FormatFacts>,
     /// Width of most nozzles of filament printers.
@@ -59,16 +56,32 @@ pub struct Facts {
     /// Minimum thickness of the walls of a hollow model.
     pub wall_least_mm: f64,
     /// Diameter of contacts by the strength of supports.
-    #[cfg_attr(
-        target_arch = "wasm32",
-        tsify(type = "Record<SupportStrength, number>")
-    )]
-    pub contacts_mm: BTreeMap<&'static str, f64>,
+    pub contacts_mm: Contacts,
     /// Default diameter of drain holes.
     pub drain_mm: f64,
     /// The options that rays depend on.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "(keyof Options)[]"))]
     pub ray_options: [&'static str; RAY_OPTIONS.len()],
+}
+
+/// A metric.
+#[derive(Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct MetricFacts {
+    /// Its name, as in options.
+    pub name: Metric,
+    /// Default tolerance on resin printers, in the metric's unit. For volume, a job may need more.
+    pub tolerance: f64,
+}
+
+/// A length for each strength of supports.
+#[derive(Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[expect(missing_docs, reason = "the fields are the strengths")]
+pub struct Contacts {
+    pub light: f64,
+    pub medium: f64,
+    pub heavy: f64,
 }
 
 /// A print format.
@@ -88,25 +101,25 @@ impl Facts {
             name,
             layer_rule: FilamentSlicer::of(name).map(FilamentSlicer::rule),
         };
-        let strengths = [
-            ("light", SupportStrength::Light),
-            ("medium", SupportStrength::Medium),
-            ("heavy", SupportStrength::Heavy),
-        ];
+        let metric = |name: Metric| MetricFacts {
+            name,
+            tolerance: name.default_tolerance(),
+        };
+        let contact_mm = |strength: SupportStrength| strength.profile().contact_mm;
         Self {
             defaults: Options::default().settled(),
             arranging: Arranging::default(),
             limits: Limits::default(),
-            tolerances: Metric::ALL
-                .map(|metric| (metric.name(), metric.default_tolerance()))
-                .into(),
+            metrics: Metric::ALL.map(metric),
             formats: Format::all().map(format).collect(),
             nozzle_mm: USUAL_NOZZLE_MM,
             nozzles_mm: NOZZLES_MM,
             wall_least_mm: LEAST_WALL_MM,
-            contacts_mm: strengths
-                .map(|(name, strength)| (name, strength.profile().contact_mm))
-                .into(),
+            contacts_mm: Contacts {
+                light: contact_mm(SupportStrength::Light),
+                medium: contact_mm(SupportStrength::Medium),
+                heavy: contact_mm(SupportStrength::Heavy),
+            },
             drain_mm: AutoDrain::default().diameter_mm,
             ray_options: RAY_OPTIONS,
         }

@@ -28,7 +28,7 @@ export function nozzleLayers(format: Format | "", nozzle_mm: number): { layer_mi
 
 /** The tolerance that applies if none is given; for volume, the core allows more if the model needs it. */
 export function usualOf(metric: Metric, format: Format | "", nozzle_mm: number = FACTS.nozzle_mm): number {
-  const usual = FACTS.tolerances[metric];
+  const usual = FACTS.metrics.find(({ name }) => name === metric)?.tolerance ?? Number.NaN;
   const layers = nozzleLayers(format, nozzle_mm);
   return layers === null ? usual : Number(((usual * layers.layer_min_mm) / FACTS.defaults.layer_min_mm).toFixed(6));
 }

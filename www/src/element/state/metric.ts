@@ -1,4 +1,5 @@
 /** Metrics: their units, and formatting of their values. Their names are in the text catalogues. */
+import { FACTS } from "../../api/facts.js";
 import type { Metric } from "../../api/wire.js";
 import type { Format } from "../../texts/index.js";
 import type { FieldUnit } from "./typed.js";
@@ -57,4 +58,4 @@ export const METRICS: Readonly<Record<Metric, Measure>> = {
   },
 };
 
-export const METRIC_NAMES = Object.keys(METRICS) as Metric[];
+export const METRIC_NAMES: readonly Metric[] = FACTS.metrics.map(({ name }) => name);
