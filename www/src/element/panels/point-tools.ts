@@ -114,7 +114,7 @@ export class PointEditor {
       ${this.#selection(tool, list, place, words, language)}
       <div class="actions">
         ${button(words.automatically, true, () => this.#change(automatic(points, session.settings)))}
-        ${session.plate.entries.length > 1 ? nothing : button(words.clear, list.length > 0, () => this.#change(cleared(kind)))}
+        ${button(words.clear, list.length > 0, () => this.#change(cleared(kind, points.isAlone)))}
         ${stepButtons(session, language)}
       </div>
       ${kind === "drains"
@@ -211,9 +211,10 @@ export class PointEditor {
 
   #points(kind: PlacedKind): HandPoints {
     const { settings, options, result, isCurrent } = this.#session;
-    const of = [kind, settings, result, isCurrent];
+    const isAlone = this.#session.plate.entries.length < 2;
+    const of = [kind, settings, result, isCurrent, isAlone];
     if (this.#known === null || of.some((it, i) => it !== this.#known?.of[i])) {
-      this.#known = { of, points: pointsOf(kind, { settings, options, result, isCurrent }) };
+      this.#known = { of, points: pointsOf(kind, { settings, options, result, isCurrent, isAlone }) };
     }
     return this.#known.points;
   }

@@ -22,7 +22,7 @@ function shown(kind: PlacedKind, change: Partial<Settings>, own: Partial<ModelRe
   const settings = { ...DEFAULT_SETTINGS, ...change };
   const options = optionsOf(settings);
   const result = own === null ? null : ({ report: report({}), own, options } as Result);
-  return pointsOf(kind, { settings, options, result, isCurrent });
+  return pointsOf(kind, { settings, options, result, isCurrent, isAlone: true });
 }
 
 const at = ({ list }: HandPoints): unknown[] => list.map(({ at_mm }) => at_mm);
@@ -52,7 +52,20 @@ test("a point of a model without supports stands alone, and without the last one
   const change = added(points, pointAt("points", TO, null), DEFAULT_SETTINGS);
   expect(change).toEqual({ points: "5,5,5,,1", fill: "off", supports: "medium" });
   const alone = shown("points", change, { supported: { ...SUPPORTED, points: [{ at_mm: [5, 5, 5] }], unreached: [] } });
-  expect(removed(alone, 0, { ...DEFAULT_SETTINGS, ...change })).toEqual(cleared("points"));
+  expect(removed(alone, 0, { ...DEFAULT_SETTINGS, ...change })).toEqual(cleared("points", true));
+});
+
+test("one of several models without its last point has none, while others keep the setting for supports and holes", () => {
+  const own = { supported: { ...SUPPORTED, points: [{ at_mm: TO.at_mm }], unreached: [] } } as unknown as Partial<ModelReport>;
+  const points = { ...shown("points", { supports: "light", points: "5,5,5,,1" }, own), isAlone: false };
+  const change = removed(points, 0, { ...DEFAULT_SETTINGS, supports: "light" });
+  expect(change).toEqual({ points: "none", fill: "off" });
+  const settings: Settings = { ...DEFAULT_SETTINGS, supports: "light", wall: "2", ...change };
+  expect(optionsOf(settings).supports).toBeUndefined();
+  expect(shown("points", settings, {}).list).toEqual([]);
+  expect(fromAddress(toAddress(settings))).toEqual(settings);
+  expect(cleared("drains", false)).toEqual({ drains: "none", drain: "none" });
+  expect(optionsOf({ ...settings, ...cleared("drains", false) }).hollow).toEqual({ wall_mm: 2 });
 });
 
 test("while the automatic points are unknown, an edit leaves them automatic", () => {
@@ -64,7 +77,7 @@ test("while the automatic points are unknown, an edit leaves them automatic", ()
 test("points of a plan in another pose are not those of the model", () => {
   const settings: Settings = { ...DEFAULT_SETTINGS, supports: "light" };
   const result = { report: report({}), own: { supported: { ...SUPPORTED, points: [LOW], unreached: [] } }, options: { ...optionsOf(settings), height_mm: 7 } } as unknown as Result;
-  expect(pointsOf("points", { settings, options: optionsOf(settings), result, isCurrent: false })).toMatchObject({ list: [], isWhole: false });
+  expect(pointsOf("points", { settings, options: optionsOf(settings), result, isCurrent: false, isAlone: true })).toMatchObject({ list: [], isWhole: false });
 });
 
 test("placed automatically, the locked ones stay, and others fill in", () => {

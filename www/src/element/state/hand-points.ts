@@ -4,7 +4,7 @@
  */
 import type { Drain, Options, SupportPoint } from "../../api/wire.js";
 import type { Triple } from "../../view/scene/pose.js";
-import { placedFrom, placedText, type Placed, type PlacedKind } from "./placed.js";
+import { NO_POINTS, placedFrom, placedText, type Placed, type PlacedKind } from "./placed.js";
 import type { Result } from "./result.js";
 import type { Settings } from "./settings.js";
 
@@ -19,6 +19,8 @@ export interface HandPoints {
   readonly list: readonly HandPoint[];
   /** True if the list is complete; false until the plan reports the automatic points. */
   readonly isWhole: boolean;
+  /** True if no other model shares the setting for supports. */
+  readonly isAlone: boolean;
 }
 
 /** Tolerance for recognising a point in the core's results, mm. */
@@ -30,12 +32,13 @@ interface Given {
   readonly options: Options | null;
   readonly result: Result | null;
   readonly isCurrent: boolean;
+  readonly isAlone: boolean;
 }
 
 /** Points of these settings and automatic points of the last plan. */
-export function pointsOf(kind: PlacedKind, { settings, options, result, isCurrent }: Given): HandPoints {
+export function pointsOf(kind: PlacedKind, { settings, options, result, isCurrent, isAlone }: Given): HandPoints {
   const own = isPlaced(kind, settings) ? (placedFrom(settings[kind], kind) ?? []) : [];
-  const isAutomatic = kind === "points" ? settings.supports !== "none" && (own.length === 0 || settings.fill === "on") : settings.drain === "auto";
+  const isAutomatic = kind === "points" ? settings.supports !== "none" && settings.points !== NO_POINTS && (own.length === 0 || settings.fill === "on") : settings.drain === "auto";
   const planned = result !== null && isSamePose(result.options, options) ? plannedOf(kind, result) : null;
   const reached = [...(planned?.reached ?? [])];
   const unreached = [...(planned?.unreached ?? [])];
@@ -47,7 +50,7 @@ export function pointsOf(kind: PlacedKind, { settings, options, result, isCurren
   if (isAutomatic) {
     list.push(...reached.map((point) => ({ ...point, isUnreached: false })), ...unreached.map((point) => ({ ...point, isUnreached: true })));
   }
-  return { kind, list, isWhole: !isAutomatic || planned !== null };
+  return { kind, list, isWhole: !isAutomatic || planned !== null, isAlone };
 }
 
 /** Returns true if the setting's points are used. */
@@ -126,10 +129,11 @@ function replaced(points: HandPoints, place: number, change: (point: Placed) => 
  * Change of settings that fixes this list, with automatic points still to come if it is incomplete. An empty list of points removes the
  * supports.
  */
-function withList({ kind, isWhole }: HandPoints, list: readonly Placed[], settings: Settings): Partial<Settings> {
+function withList({ kind, isWhole, isAlone }: HandPoints, list: readonly Placed[], settings: Settings): Partial<Settings> {
   const text = placedText(list);
+  const isNone = list.length === 0 && (kind === "points" || isWhole);
+  if (isNone) return cleared(kind, isAlone);
   if (kind === "drains") return { drains: text, drain: isWhole ? "none" : "auto" };
-  if (list.length === 0) return cleared(kind);
   return { points: text, fill: isWhole ? "off" : "on", supports: strengthOf(settings) };
 }
 
@@ -142,8 +146,10 @@ export function automatic({ kind, list }: HandPoints, settings: Settings): Parti
 }
 
 /** Change of settings that removes all points. */
-export function cleared(kind: PlacedKind): Partial<Settings> {
-  return kind === "drains" ? { drains: "", drain: "none" } : { points: "", fill: "off", supports: "none" };
+export function cleared(kind: PlacedKind, isAlone: boolean): Partial<Settings> {
+  const text = isAlone ? "" : NO_POINTS;
+  if (kind === "drains") return { drains: text, drain: "none" };
+  return { points: text, fill: "off", ...(isAlone && { supports: "none" }) };
 }
 
 const strengthOf = ({ supports }: Settings): Settings["supports"] => (supports === "none" ? "medium" : supports);

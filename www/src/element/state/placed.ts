@@ -22,8 +22,11 @@ export const MOST_MM = 50;
 const rounded = (mm: number): number => Math.round(mm * 1000) / 1000 + 0;
 
 /** Parses the points of a setting; null if malformed. */
+/** Setting of one model of several without points, whatever the others have. */
+export const NO_POINTS = "none";
+
 export function placedFrom(text: string, kind: PlacedKind): readonly Placed[] | null {
-  if (text === "") return [];
+  if (text === "" || text === NO_POINTS) return [];
   const list = text.split(";").map((point) => pointFrom(point.split(","), kind));
   return list.every((point) => point !== null) ? list : null;
 }

@@ -3,7 +3,7 @@ import { FACTS, FORMATS, isFilament, nozzleLayers, usualOf } from "../../api/fac
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap, SupportStrength } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "./metric.js";
-import { placedFrom, placedText } from "./placed.js";
+import { NO_POINTS, placedFrom, placedText } from "./placed.js";
 import { ADDRESS_CHARS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
 import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
@@ -241,7 +241,7 @@ export function fromAddress(query: string): Settings {
     const text = address.get(key);
     if (text === null) continue;
     if (key === "printer") settings.printer = printerFrom(text);
-    else if (key === "points" || key === "drains") settings[key] = placedText(placedFrom(text, key) ?? []);
+    else if (key === "points" || key === "drains") settings[key] = text === NO_POINTS ? text : placedText(placedFrom(text, key) ?? []);
     else settings[key] = text;
   }
   const tolerance = address.get("tolerance");
@@ -325,7 +325,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
 
   const isSparing = settings.spare === "on";
   // Slicers for filament printers add supports and hollow by themselves.
-  if (settings.supports !== "none" && !isFilament(settings.format)) {
+  if (settings.supports !== "none" && settings.points !== NO_POINTS && !isFilament(settings.format)) {
     options.supports = { strength: settings.supports };
     const points = placedFrom(settings.points, "points") ?? [];
     if (points.length > 0) {
