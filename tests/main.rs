@@ -10,6 +10,7 @@ mod docs;
 #[cfg(target_os = "linux")]
 mod endurance;
 mod filament;
+mod filament_roundness;
 mod fuzz;
 mod grid;
 mod growth;
@@ -32,7 +33,6 @@ mod quantity;
 mod read;
 mod saliency;
 mod simulate;
-mod thread;
 mod vanishing;
 mod verify;
 mod web;

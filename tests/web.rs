@@ -241,7 +241,7 @@ async fn check_plan_and_masks() {
     assert_eq!(archive(&mut slicer), 0x5583_4511_6bf4_6186);
     // Every metric, source and objective.
     let mut plans = Vec::new();
-    let is_older = |metric: &Metric| *metric != Metric::Thread;
+    let is_older = |metric: &Metric| *metric != Metric::FilamentRoundness;
     for metric in Metric::ALL.into_iter().filter(is_older) {
         for (source, minimize) in [
             (Source::Exact, Minimize::Layers),
@@ -268,7 +268,7 @@ async fn check_plan_and_masks() {
     assert_eq!(fingerprint(&plans), 0x8921_2f2c_7b8c_ea9d);
     // A plan for filament printers, and its file.
     let filament = Options {
-        metric: Metric::Thread,
+        metric: Metric::FilamentRoundness,
         format: Some(Format::Prusa3mf),
         ..options()
     };

@@ -5,6 +5,7 @@ mod creases;
 pub mod cusp;
 pub mod deviation;
 pub mod facet_bins;
+pub mod filament_roundness;
 pub mod largest;
 pub mod normal_cones;
 pub mod roughness;
@@ -12,7 +13,6 @@ pub mod section;
 pub(crate) mod shapes;
 pub mod snap_planes;
 pub mod steepest;
-pub mod thread;
 pub mod volume;
 pub mod weighted;
 
@@ -35,8 +35,10 @@ pub enum Metric {
     Cusp,
     /// Distance from the print to the model, in millimetres: see [`deviation`].
     Deviation,
-    /// Cusp height with the roundness of a thread, for filament printers, in millimetres: see [`thread`].
-    Thread,
+    /// Cusp height with the roundness of filament, in millimetres: see [`filament_roundness`].
+    #[serde(rename = "filament-roundness", alias = "thread")]
+    #[cfg_attr(feature = "cli", value(name = "filament-roundness", alias = "thread"))]
+    FilamentRoundness,
     /// Surface roughness Ra, in millimetres (eq. 7 to 10).
     Roughness,
     /// Area deviation, a fraction (eq. 11 to 14).
@@ -50,7 +52,7 @@ impl Metric {
     pub const ALL: [Self; 6] = [
         Self::Cusp,
         Self::Deviation,
-        Self::Thread,
+        Self::FilamentRoundness,
         Self::Roughness,
         Self::Area,
         Self::Volume,
@@ -61,7 +63,7 @@ impl Metric {
         match self {
             Self::Cusp => "cusp",
             Self::Deviation => "deviation",
-            Self::Thread => "thread",
+            Self::FilamentRoundness => "filament-roundness",
             Self::Roughness => "roughness",
             Self::Area => "area",
             Self::Volume => "volume",
@@ -80,13 +82,13 @@ impl Metric {
 
     /// Returns true if its errors are distances of the print from the model.
     pub fn is_distance(self) -> bool {
-        matches!(self, Self::Cusp | Self::Deviation | Self::Thread)
+        matches!(self, Self::Cusp | Self::Deviation | Self::FilamentRoundness)
     }
 
     /// The unit of its errors and tolerances; empty for a fraction.
     pub fn unit(self) -> &'static str {
         match self {
-            Self::Cusp | Self::Deviation | Self::Thread | Self::Roughness => "mm",
+            Self::Cusp | Self::Deviation | Self::FilamentRoundness | Self::Roughness => "mm",
             Self::Area => "",
             Self::Volume => "mm³",
         }
@@ -111,7 +113,7 @@ impl Metric {
         match self {
             Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
             Self::Deviation => deviation::DEFAULT_TOLERANCE_MM,
-            Self::Thread => thread::DEFAULT_TOLERANCE_MM,
+            Self::FilamentRoundness => filament_roundness::DEFAULT_TOLERANCE_MM,
             Self::Roughness => roughness::DEFAULT_TOLERANCE_MM,
             Self::Area => area::DEFAULT_TOLERANCE,
             Self::Volume => volume::DEFAULT_TOLERANCE_MM3,
@@ -154,7 +156,7 @@ impl Shape {
         let density = match metric {
             Metric::Cusp => cusp::density(&self.steepest),
             Metric::Deviation => cusp::density(&self.cones),
-            Metric::Thread => thread::density(&self.steepest),
+            Metric::FilamentRoundness => filament_roundness::density(&self.steepest),
             Metric::Roughness => roughness::density(&self.steepest),
             Metric::Area => area::density(&self.areas_mm2, self.bins),
             Metric::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),

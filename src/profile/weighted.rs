@@ -8,7 +8,7 @@ use super::facet_bins::FacetBins;
 use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
-use super::{LayerErrors, Metric, Profile, Shape, area, cusp, roughness, thread};
+use super::{LayerErrors, Metric, Profile, Shape, area, cusp, filament_roundness, roughness};
 use crate::ldi::RayImage;
 use crate::progress::{Cancelled, Progress};
 
@@ -17,7 +17,7 @@ use crate::progress::{Cancelled, Progress};
 #[derive(Debug, Clone)]
 pub struct Weighted {
     metric: Metric,
-    /// The density of a vertical wall under the metric thread, with the largest weight: rays meet no upright walls.
+    /// The density of a vertical wall by filament roundness, with the largest weight: rays meet no upright walls.
     wall: f32,
     values: Vec<f32>,
     /// For the deviation, the largest `n_z²` over the normal cones of each bin whose weight is at least a level, with that level.
@@ -30,7 +30,7 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
         let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
         match metric {
             Metric::Cusp => weight * cusp::density_of(square),
-            Metric::Thread => weight * thread::density_of(square),
+            Metric::FilamentRoundness => weight * filament_roundness::density_of(square),
             Metric::Roughness => weight * roughness::density_of(square),
             Metric::Deviation | Metric::Area | Metric::Volume => weight,
         }
@@ -87,7 +87,7 @@ impl Weighted {
             0.0,
             |most: f32, &weight| if most < weight { weight } else { most },
         );
-        let wall = largest * thread::OF_A_WALL;
+        let wall = largest * filament_roundness::OF_A_WALL;
         if metric != Metric::Deviation {
             return Ok(Self {
                 metric,
@@ -134,7 +134,7 @@ impl Weighted {
             Metric::Cusp | Metric::Deviation | Metric::Roughness => {
                 steepest::densities(&self.values, |value| value)
             }
-            Metric::Thread => self
+            Metric::FilamentRoundness => self
                 .values
                 .iter()
                 .map(|&value| {

@@ -72,7 +72,7 @@ fn models() -> Vec<(&'static str, solids::Triangles, Options)> {
                 15.0,
             ),
             Options {
-                metric: Metric::Thread,
+                metric: Metric::FilamentRoundness,
                 ..options(15.003)
             },
         ),

@@ -9,7 +9,7 @@ beforeAll(startCore);
 test("layers and tolerances that forms show are those of plans, for every metric and nozzle", async () => {
   const job = jobOf(binaryStl(exampleTriangles()));
   // The default for volume depends on the model.
-  for (const metric of ["cusp", "deviation", "thread", "roughness", "area"] as const) {
+  for (const metric of ["cusp", "deviation", "filament-roundness", "roughness", "area"] as const) {
     const report = await planOf(job, { metric, rays: 64, backend: "cpu" });
     expect(report.tolerance, metric).toBe(usualOf(metric, ""));
   }

@@ -4,7 +4,7 @@
  */
 import type { PropertyDeclaration } from "lit";
 import type { Backend, GpuMethod } from "../api/wire.js";
-import { METRIC_NAMES } from "./state/metric.js";
+import { currentName, METRIC_NAMES } from "./state/metric.js";
 import { PANELS } from "./state/panel-names.js";
 import { fraction, languageTag, number, oneOf, printer, someOf, text, type Reader } from "./state/readers.js";
 import { FORMATS } from "../api/facts.js";
@@ -33,7 +33,7 @@ const SETTING_PROPERTIES = {
   printer: { attribute: "printer", read: printer, sets: "printer" },
   format: { attribute: "format", read: oneOf(FORMATS), sets: "format" },
   resin: { attribute: "resin", read: text, sets: "resin" },
-  metric: { attribute: "metric", read: oneOf(METRIC_NAMES), sets: "metric" },
+  metric: { attribute: "metric", read: (said) => oneOf(METRIC_NAMES)(currentName(String(said))), sets: "metric" },
   tolerance: { attribute: "tolerance", read: number, sets: "tolerances" },
   layerMax: { attribute: "layer-max", read: number, sets: "layerMax" },
   layerMin: { attribute: "layer-min", read: number, sets: "layerMin" },

@@ -95,7 +95,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("resin", resin);
   }
 
-  /** Maximum error of a layer: mm (cusp, deviation, thread, roughness), a fraction (area) or mm³ (volume). Null for the default. */
+  /** Maximum error of a layer: mm (cusp, deviation, filament-roundness, roughness), a fraction (area) or mm³ (volume). Null for the default. */
   get tolerance(): number | null {
     const { metric, tolerances } = this.session.settings;
     const typed = parse(tolerances[metric] ?? "");

@@ -36,7 +36,7 @@ const length = {
 export const METRICS: Readonly<Record<Metric, Measure>> = {
   cusp: { ...length, error: errorOf("cusp"), tolerances: [0.001, 1], bound: 1 },
   deviation: { ...length, error: errorOf("deviation"), tolerances: [0.0005, 0.5], bound: 1 },
-  thread: { ...length, error: errorOf("thread"), tolerances: [0.001, 1], bound: 1 },
+  "filament-roundness": { ...length, error: errorOf("filament-roundness"), tolerances: [0.001, 1], bound: 1 },
   roughness: { ...length, error: errorOf("roughness"), tolerances: [0.001, 2], bound: 2 },
   area: {
     unit: "%",
@@ -57,5 +57,8 @@ export const METRICS: Readonly<Record<Metric, Measure>> = {
     bound: null,
   },
 };
+
+/** The current name of a metric, given that or its name in earlier versions. */
+export const currentName = (name: string): string => (name === "thread" ? "filament-roundness" : name);
 
 export const METRIC_NAMES: readonly Metric[] = FACTS.metrics.map(({ name }) => name);

@@ -49,7 +49,7 @@ test("the default settings are the core's defaults", () => {
 test.each([
   ["cusp", "0.065", "0.05", 0.05],
   ["deviation", "0.0325", "0.01", 0.01],
-  ["thread", "0.065", "0.06", 0.06],
+  ["filament-roundness", "0.065", "0.06", 0.06],
   ["roughness", "0.1", "0,2", 0.2],
   ["area", "10", "5", 0.05],
   ["volume", "1", "20", 20],
@@ -153,6 +153,10 @@ test("a query sets settings, and unknown keys and choices are ignored", () => {
     step: "0.01",
   });
   expect(fromAddress("?rays=7&planner=best&metric=beauty&minimize=cost&snap=on&constructor=1")).toEqual(DEFAULT_SETTINGS);
+});
+
+test("a metric is known by its name of earlier versions, too", () => {
+  expect(fromAddress("?metric=thread").metric).toBe("filament-roundness");
 });
 
 test("numbers of a query may have a decimal comma and a unit, and become canonical", () => {

@@ -2,7 +2,7 @@
 import { FACTS, FORMATS, isFilament, nozzleLayers, usualOf } from "../../api/facts.js";
 import type { Format as FileFormat, KnownPrinter, Metric, Minimize, ModelUnit, Options, Resin, Snap, SupportStrength } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
-import { METRIC_NAMES, METRICS } from "./metric.js";
+import { currentName, METRIC_NAMES, METRICS } from "./metric.js";
 import { NO_POINTS, placedFrom, placedText } from "./placed.js";
 import { ADDRESS_CHARS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
@@ -229,7 +229,8 @@ export function fromAddress(query: string): Settings {
   const nozzle = canonical(address.get("nozzle") ?? "", UNITS.nozzle);
   const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "", nozzle) };
   const choose = <Key extends keyof Choices>(key: Key): void => {
-    const choice = CHOICES[key].find((choice) => choice === address.get(key));
+    const asked = address.get(key);
+    const choice = CHOICES[key].find((choice) => asked !== null && choice === currentName(asked));
     if (choice !== undefined) (settings as Choices)[key] = choice;
   };
   for (const key of Object.keys(CHOICES) as (keyof Choices)[]) choose(key);

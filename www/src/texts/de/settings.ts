@@ -108,7 +108,7 @@ export const settings = (): SettingsTexts => ({
       axis: "Neigung mit Kanten: 0 senkrecht, 1 waagrecht",
       density: (value) => `Neigung ${value} (1 ist waagrecht)`,
     },
-    thread: {
+    "filament-roundness": {
       name: "Stufenhöhe von Fäden",
       help: "Wie die Stufenhöhe, nur zeigen sich runde Fäden auch an senkrechten Wänden: für Filament.",
       head: "Größte Stufe",

@@ -109,7 +109,7 @@ export const settings = () => ({
       axis: "Steepness with edges: 0 upright, 1 level",
       density: (value: string) => `steepness ${value} (1 is level)`,
     },
-    thread: {
+    "filament-roundness": {
       name: "Step height of threads",
       help: "Like the step height, and round threads show on upright walls as well: for filament.",
       head: "Largest step",

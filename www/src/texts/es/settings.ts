@@ -108,7 +108,7 @@ export const settings = (): SettingsTexts => ({
       axis: "Inclinación con aristas: 0 vertical, 1 horizontal",
       density: (value) => `inclinación ${value} (1 es horizontal)`,
     },
-    thread: {
+    "filament-roundness": {
       name: "Altura de escalón de hilos",
       help: "Como la altura de escalón, pero los hilos redondos se ven también en paredes verticales: para filamento.",
       head: "Mayor escalón",

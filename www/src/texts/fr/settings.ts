@@ -108,7 +108,7 @@ export const settings = (): SettingsTexts => ({
       axis: "Inclinaison, arêtes comprises : 0 vertical, 1 horizontal",
       density: (value) => `inclinaison ${value} (1 est horizontal)`,
     },
-    thread: {
+    "filament-roundness": {
       name: "Hauteur de marche des fils",
       help: "Comme la hauteur de marche, mais les fils ronds se voient aussi sur les parois verticales : pour le filament.",
       head: "Plus grande marche",

@@ -108,7 +108,7 @@ export const settings = (): SettingsTexts => ({
       axis: "倾斜程度（含棱边）：0 竖直，1 水平",
       density: (value) => `倾斜程度 ${value}（1 为水平）`,
     },
-    thread: {
+    "filament-roundness": {
       name: "丝线台阶高度",
       help: "与台阶高度相同，但圆形丝线在竖直壁面上也会显现：用于丝材。",
       head: "最大台阶",

@@ -1,7 +1,7 @@
-//! The roundness of a thread: cusp height, but no surface is smoother than the threads of filament that it is made of. The density
-//! is the larger of 0.184 and the largest |`n_z`| of the surface in each bin. The error of a layer is in millimetres.
+//! Filament roundness: the cusp height, but at least what the round side of a filament shows. The density is the larger of 0.184 and the
+//! largest |`n_z`| of the surface in each bin. The error of a layer is in millimetres.
 //!
-//! A thread's side is round, so layers show on a vertical wall as well: Wasserfall, Hendrich and Zhang, "Adaptive slicing for the FDM
+//! Layers show on a vertical wall as well: Wasserfall, Hendrich and Zhang, "Adaptive slicing for the FDM
 //! process revisited", *IEEE CASE* 2017, measured that it leaves an error of 0.184 times the thickness of the layer. `PrusaSlicer`
 //! limits its adaptive layers by the same number.
 

@@ -1,4 +1,4 @@
-//! The metric of threads against closed forms and a loop over facets and bins.
+//! Filament roundness against closed forms and a loop over facets and bins.
 
 use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, on_plate, oracle, quiet, solids};
@@ -12,7 +12,7 @@ const BIN_MM: f64 = 0.02;
 
 fn options() -> Options {
     Options {
-        metric: Metric::Thread,
+        metric: Metric::FilamentRoundness,
         rays: 200,
         snap: Snap::Off,
         bin_mm: Some(BIN_MM),
@@ -33,7 +33,10 @@ fn densities(triangles: &solids::Triangles, weight: Option<f32>, source: Source)
         ..options()
     };
     pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
-    slicer.profile(Metric::Thread, source).unwrap().density
+    slicer
+        .profile(Metric::FilamentRoundness, source)
+        .unwrap()
+        .density
 }
 
 #[test]
@@ -103,4 +106,12 @@ fn thick_layers_on_walls_are_limited_by_their_threads() {
         let thickest = report.thickness_mm.iter().copied().fold(0.0, f64::max);
         assert_near(thickest, 0.4, 1e-9);
     }
+}
+
+#[test]
+fn its_name_of_earlier_versions_is_read() {
+    let options: Options = serde_json::from_str(r#"{ "metric": "thread" }"#).unwrap();
+    assert_eq!(options.metric, Metric::FilamentRoundness);
+    let written = serde_json::to_value(&options).unwrap();
+    assert_eq!(written["metric"], "filament-roundness");
 }
