@@ -5,7 +5,7 @@ use std::sync::Arc;
 use super::collect::Frame;
 use super::columns;
 use super::components::Components;
-use super::escapes::{self, Extents};
+use super::drain_openings::{self, Extents};
 use super::finding::Code;
 use super::holes;
 use super::hollows::{Gaps, Meetings};
@@ -212,7 +212,7 @@ fn meetings(
 impl Alone {
     fn new(lit: Rows, escape: Option<&Disc>) -> Self {
         let extents = escape.map_or(Extents::default(), |disc| Extents::new(&lit, disc));
-        let rooms = escape.map(|disc| escapes::rooms(&lit, disc, &extents));
+        let rooms = escape.map(|disc| drain_openings::rooms(&lit, disc, &extents));
         Self {
             rooms: rooms.unwrap_or_default(),
             extents,

@@ -10,7 +10,7 @@ mod bridges;
 mod collect;
 mod columns;
 mod components;
-mod escapes;
+mod drain_openings;
 mod finding;
 mod forest;
 mod held;

@@ -2,7 +2,7 @@
 
 use super::bodies::Bodies;
 use super::collect::{Collector, Frame};
-use super::escapes::Escapes;
+use super::drain_openings::Openings;
 use super::finding::Code;
 use super::forest::Step;
 use super::held::{Held, Holds};
@@ -18,7 +18,7 @@ pub(super) struct Sweep<'a> {
     frame: &'a Frame<'a>,
     bodies: Bodies<'a>,
     hollows: Hollows<'a>,
-    escapes: Escapes<'a>,
+    openings: Openings<'a>,
     overhangs: Overhangs,
     tips: Holds,
     joints: Holds,
@@ -39,7 +39,7 @@ impl<'a> Sweep<'a> {
             frame,
             bodies: Bodies::new(frame, limits),
             hollows: Hollows::new(frame, limits),
-            escapes: Escapes::new(frame, limits),
+            openings: Openings::new(frame, limits),
             overhangs: Overhangs::new(frame, limits, held),
             tips: Holds::of_tips(held, frame),
             joints: Holds::of_joints(held, frame),
@@ -72,7 +72,7 @@ impl<'a> Sweep<'a> {
         self.hollows
             .advance(number, gaps, &layer.meetings, collector);
         let (rooms, meetings) = (&layer.alone.rooms, &layer.room_meetings);
-        self.escapes
+        self.openings
             .advance(number, rooms, meetings, gaps, &self.hollows);
         self.overhangs.advance(&layer, frame, collector);
         let mut thin = layer.thin;
@@ -108,7 +108,7 @@ impl<'a> Sweep<'a> {
         ] {
             regions.finish(frame, collector);
         }
-        self.escapes.finish(&self.hollows, collector);
+        self.openings.finish(&self.hollows, collector);
         self.hollows.finish(collector);
         let bodies = self.bodies.finish(collector);
         (bodies, self.peeling.finish(collector))

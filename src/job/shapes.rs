@@ -41,14 +41,15 @@ impl Job {
             }
             let mut within = |stage, fraction| progress(stage, (model as f64 + fraction) / count);
             let weights = self.models[model].layering_weights(&resolved.layering, &mut within)?;
-            let spared = sampling.spared(weights.as_deref());
+            let protected = sampling.protected(weights.as_deref());
             let prepared = match kept.get(model).and_then(Option::as_ref) {
-                Some(known) if known.is_of(&sampling, spared) => Arc::clone(known),
+                Some(known) if known.is_of(&sampling, protected) => Arc::clone(known),
                 last => {
                     let mesh = &self.models[model].mesh;
                     let last = last.map(AsRef::as_ref);
                     let mut within = |fraction| within(Stage::Ldi, PREPARING_SHARE * fraction);
-                    let made = Prepared::new(mesh, &sampling, spared, last, timings, &mut within);
+                    let made =
+                        Prepared::new(mesh, &sampling, protected, last, timings, &mut within);
                     Arc::new(made?)
                 }
             };
@@ -160,16 +161,16 @@ impl Job {
             } = it;
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
             let weights = self.models[model].layering_weights(layering, &mut within)?;
-            let spared = sampling.spared(weights.as_deref());
-            let known = kept
-                .iter()
-                .position(|shape| shape.model == model && shape.sampled.is_of(&sampling, spared));
+            let protected = sampling.protected(weights.as_deref());
+            let known = kept.iter().position(|shape| {
+                shape.model == model && shape.sampled.is_of(&sampling, protected)
+            });
             let shape = if let Some(known) = known {
                 kept.swap_remove(known)
             } else {
                 let mut begun = 0.0;
                 let mut alike = posed.iter().filter(|it| it.0 == model);
-                let alike = alike.find(|(_, posed)| posed.is_of(&sampling, spared));
+                let alike = alike.find(|(_, posed)| posed.is_of(&sampling, protected));
                 let prepared = if let Some(prepared) = &self.prepared[model] {
                     begun = PREPARING_SHARE;
                     prepared.turned(turns)?
@@ -178,7 +179,8 @@ impl Job {
                 } else {
                     let mesh = &self.models[model].mesh;
                     let last = None;
-                    let posed = Prepared::new(mesh, &sampling, spared, last, timings, &mut silent);
+                    let posed =
+                        Prepared::new(mesh, &sampling, protected, last, timings, &mut silent);
                     Arc::new(posed?)
                 };
                 let mut within = |fraction| within(Stage::Ldi, begun + (1.0 - begun) * fraction);

@@ -36,7 +36,8 @@ pub struct AutoDrain {
     pub diameter_mm: f64,
     /// True if they keep off facets that weigh more than a half, where another way leads out. Resin that stays inside is worse than a
     /// hole that shows.
-    pub spare: bool,
+    #[serde(alias = "spare")]
+    pub protect: bool,
 }
 
 impl Default for AutoDrain {
@@ -44,7 +45,7 @@ impl Default for AutoDrain {
     fn default() -> Self {
         Self {
             diameter_mm: 3.0,
-            spare: false,
+            protect: false,
         }
     }
 }
@@ -223,14 +224,14 @@ const ROOM: f32 = 2.0;
 /// The least distance of a hole from the plate, which would close it.
 const ABOVE_PLATE_MM: f32 = 0.2;
 
-/// Places a hole that drains a basin by the shortest way, first of those that end on facets that are not spared: level
+/// Places a hole that drains a basin by the shortest way, first of those that end on facets that are not protected: level
 /// or slanting down, since a hole that leads up would leave resin in. `None` if there is no such way.
 pub(super) fn place(
     model: &Columns,
     lattice: &Lattice,
     lowest_mm: Vec3,
     hole: AutoDrain,
-    is_spared: &dyn Fn(Vec3) -> bool,
+    is_protected: &dyn Fn(Vec3) -> bool,
 ) -> Option<Drain> {
     let diameter_mm = hole.diameter_mm as f32;
     let radius_mm = diameter_mm / 2.0;
@@ -258,7 +259,7 @@ pub(super) fn place(
         if end.z - below_mm < ABOVE_PLATE_MM {
             continue;
         }
-        let cost = (is_spared(end), length_mm);
+        let cost = (is_protected(end), length_mm);
         if best.is_none_or(|best| cost < best.0) {
             best = Some((cost, end, along));
         }

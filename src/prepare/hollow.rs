@@ -295,10 +295,11 @@ pub fn hollow(
         let is_small = hole.diameter_mm < size.min_element();
         // The radius that the hole cuts away, or the resolution of the columns if that is larger.
         let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
-        let is_spared = surface::spared_within(mesh, weights.filter(|_| hole.spare), reach_mm);
+        let is_protected =
+            surface::protected_within(mesh, weights.filter(|_| hole.protect), reach_mm);
         let place = |lowest_mm| {
             let drain =
-                is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole, &is_spared));
+                is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole, &is_protected));
             drain.flatten()
         };
         void.drain(basins, &lattice, place, &bounds, progress)?;

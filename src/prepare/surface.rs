@@ -111,17 +111,17 @@ fn nearest_of([a, b, c]: [DVec3; 3], point: DVec3) -> DVec3 {
     ends.into_iter().reduce(nearer).unwrap_or(a)
 }
 
-/// Facets that weigh more than this are spared, if weights say where nothing may touch.
-const SPARED: f32 = 0.5;
+/// Facets that weigh more than this are protected, if weights say where nothing may touch.
+const PROTECTED: f32 = 0.5;
 
-/// Returns true if a facet is spared.
-pub(super) fn is_spared(weights: Option<&[f32]>, facet: u32) -> bool {
+/// Returns true if a facet is protected.
+pub(super) fn is_protected(weights: Option<&[f32]>, facet: u32) -> bool {
     let weight = weights.and_then(|it| it.get(facet as usize));
-    weight.is_some_and(|&weight| weight > SPARED)
+    weight.is_some_and(|&weight| weight > PROTECTED)
 }
 
-/// Tells whether a facet within a distance of a point is spared.
-pub(super) fn spared_within<'a>(
+/// Tells whether a facet within a distance of a point is protected.
+pub(super) fn protected_within<'a>(
     mesh: &'a Mesh,
     weights: Option<&'a [f32]>,
     reach_mm: f64,
@@ -130,7 +130,7 @@ pub(super) fn spared_within<'a>(
     move |at| {
         surface.as_ref().is_some_and(|surface| {
             let mut near = surface.within(at.as_dvec3(), reach_mm).into_iter();
-            near.any(|it| is_spared(weights, it.2))
+            near.any(|it| is_protected(weights, it.2))
         })
     }
 }

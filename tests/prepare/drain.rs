@@ -312,9 +312,9 @@ fn pits_beside_a_hole_are_filled() {
 fn automatic_holes_keep_off_what_weighs_more_where_they_can() {
     let triangles = solids::cube(20.0);
     let mut cube = load(&triangles);
-    let hole = |cube: &mut Slicer, spare| {
+    let hole = |cube: &mut Slicer, protect| {
         let auto_drain = AutoDrain {
-            spare,
+            protect,
             ..AutoDrain::default()
         };
         let options = hollowed(Hollowing {

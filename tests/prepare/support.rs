@@ -398,26 +398,29 @@ fn contacts_keep_off_what_weighs_more_than_a_half() {
     let facets = board.positions().len() / 9;
     let weights = (0..facets).map(|facet| if facet < facets / 2 { 0.5 } else { 0.51 });
     board.set_weights(Some(weights.collect())).unwrap();
-    let options = |spare| {
+    let options = |protect| {
         supported(Supporting {
-            spare,
+            protect,
             ..Supporting::default()
         })
     };
     let is_light = |it: &SupportPoint| it.at_mm[0] <= 0.0;
     let reach_mm = SupportStrength::Medium.profile().spacing_mm;
     let report = plan(&mut board, &options(true));
-    let spared = report.models[0].supported.clone().unwrap();
-    assert!(spared.points.len() > 5 && spared.points.iter().all(is_light));
+    let protected = report.models[0].supported.clone().unwrap();
+    assert!(protected.points.len() > 5 && protected.points.iter().all(is_light));
     // Exactly the points that contacts on the other half do not hold are named.
-    assert!(spared.unreached.len() > 5);
-    for missed in &spared.unreached {
+    assert!(protected.unreached.len() > 5);
+    for missed in &protected.unreached {
         assert!(!is_light(missed));
         let at = DVec3::from_array(missed.at_mm);
-        let held = spared.points.iter().map(|it| at.distance(it.at_mm.into()));
+        let held = protected
+            .points
+            .iter()
+            .map(|it| at.distance(it.at_mm.into()));
         assert!(held.fold(f64::INFINITY, f64::min) >= reach_mm - 0.002);
     }
-    let points = spared.unreached.len();
+    let points = protected.unreached.len();
     assert!(
         report
             .all_warnings()

@@ -171,8 +171,8 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
 
   // While supports and holes avoid large weights, the view shows the weights.
   const shown = (): Promise<readonly [string, string]> => page.locator("cusp-view").evaluate(({ look, heat }: CuspView) => [look, heat] as const);
-  const spare = page.getByRole("switch", { name: "Keep points and holes off what is painted as important" });
-  expect(await spare.isDisabled()).toBe(true);
+  const protect = page.getByRole("switch", { name: "Keep points and holes off what is painted as important" });
+  expect(await protect.isDisabled()).toBe(true);
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
     const facets = element.model?.info.facets ?? 0;
     element.weights = Float32Array.from({ length: facets }, (_, facet) => (facet % 2 === 0 ? 1 : 0.2));
@@ -181,21 +181,21 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
   expect(await shown()).toEqual(["thickness", "product"]);
   await page.getByRole("button", { name: "Place automatically" }).click();
   await settled(page);
-  await spare.check();
+  await protect.check();
   await settled(page);
   expect(await shown()).toEqual(["weights", "product"]);
   const asked = (): Promise<unknown> =>
     page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => {
       const { supports, hollow } = element.result?.options ?? {};
-      return [supports?.spare, hollow?.auto_drain];
+      return [supports?.protect, hollow?.auto_drain];
     });
-  expect(await asked()).toEqual([true, { spare: true }]);
+  expect(await asked()).toEqual([true, { protect: true }]);
   await page.getByRole("radio", { name: "Support points" }).check();
-  expect(await spare.isChecked()).toBe(true);
+  expect(await protect.isChecked()).toBe(true);
   expect(await shown()).toEqual(["weights", "product"]);
   await page.locator("cusp-view .legend").waitFor();
   expect(await broken(page)).toEqual([]);
-  await spare.uncheck();
+  await protect.uncheck();
   await settled(page);
   expect(await asked()).toEqual([undefined, {}]);
   expect((await shown())[0]).toBe("thickness");

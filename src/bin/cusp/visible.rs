@@ -21,8 +21,8 @@ pub fn visible_lines(text: &str) -> Cow<'_, str> {
     visible_but(text, |character| character == '\n')
 }
 
-fn visible_but(text: &str, is_spared: impl Fn(char) -> bool) -> Cow<'_, str> {
-    let is_escaped = |character: char| acts(character) && !is_spared(character);
+fn visible_but(text: &str, is_protected: impl Fn(char) -> bool) -> Cow<'_, str> {
+    let is_escaped = |character: char| acts(character) && !is_protected(character);
     if !text.contains(is_escaped) {
         return text.into();
     }

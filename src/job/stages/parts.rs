@@ -180,11 +180,11 @@ impl Sampling {
     }
 
     /// The weights of facets that say where no contact and no drain hole may be, if they do.
-    pub fn spared<'a>(&self, weights: Option<&'a [f32]>) -> Option<&'a [f32]> {
-        let of_supports = self.supports.iter().map(|it| it.spare);
+    pub fn protected<'a>(&self, weights: Option<&'a [f32]>) -> Option<&'a [f32]> {
+        let of_supports = self.supports.iter().map(|it| it.protect);
         let of_drains = self.hollow.iter().filter_map(|it| it.auto_drain);
-        let mut spare = of_supports.chain(of_drains.map(|it| it.spare));
-        weights.filter(|_| spare.any(|it| it))
+        let mut protect = of_supports.chain(of_drains.map(|it| it.protect));
+        weights.filter(|_| protect.any(|it| it))
     }
 
     /// Distance by which supports lift the model above the plate.

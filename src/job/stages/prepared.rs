@@ -48,7 +48,7 @@ struct Preparing {
     hollow: Option<Hollowing>,
     supports: Option<Supporting>,
     /// The weights of facets that say where no contact and no hole may be, if they do.
-    spared: Option<Vec<f32>>,
+    protected: Option<Vec<f32>>,
 }
 
 /// The void of a hollowed model.
@@ -97,12 +97,12 @@ impl Prepared {
     pub fn new(
         model: &Mesh,
         sampling: &Sampling,
-        spared: Option<&[f32]>,
+        protected: Option<&[f32]>,
         last: Option<&Self>,
         timings: &mut Timings,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
-        let hollowed_alike = last.and_then(|last| last.unsupported(sampling, spared));
+        let hollowed_alike = last.and_then(|last| last.unsupported(sampling, protected));
         // Share of the progress that belongs to hollowing.
         let between = match (&sampling.hollow, &sampling.supports) {
             (Some(_), Some(_)) if hollowed_alike.is_none() => 0.5,
@@ -113,7 +113,7 @@ impl Prepared {
             alike
         } else {
             let mut within = |fraction| progress(between * fraction);
-            let made = Unsupported::new(model, sampling, spared, timings, &mut within)?;
+            let made = Unsupported::new(model, sampling, protected, timings, &mut within)?;
             Arc::new(made)
         };
         let clock = Instant::now();
@@ -127,7 +127,7 @@ impl Prepared {
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
             let mut within = |fraction| progress(between + (1.0 - between) * fraction);
-            let mut made = prepare::support(&mesh, supporting, spared, &mut within)?;
+            let mut made = prepare::support(&mesh, supporting, protected, &mut within)?;
             let shell = std::mem::take(&mut made.shell);
             mesh.add(&shell.vertices, &shell.facets, FacetClass::Support);
             mesh.lift(made.lift_mm);
@@ -140,7 +140,7 @@ impl Prepared {
                 pose: sampling.pose,
                 hollow: sampling.hollow.clone(),
                 supports: sampling.supports.clone(),
-                spared: spared.map(<[f32]>::to_vec),
+                protected: protected.map(<[f32]>::to_vec),
             },
             printed: mesh.printed_bounds(),
             mesh,
@@ -152,11 +152,15 @@ impl Prepared {
     }
 
     /// The model before it was supported, if these options make the same.
-    fn unsupported(&self, sampling: &Sampling, spared: Option<&[f32]>) -> Option<Arc<Unsupported>> {
+    fn unsupported(
+        &self,
+        sampling: &Sampling,
+        protected: Option<&[f32]>,
+    ) -> Option<Arc<Unsupported>> {
         let is_alike = self.of.pose == sampling.pose
             && self.of.hollow == sampling.hollow
             && self.of.hollow.is_some()
-            && self.of.spared.as_deref() == spared;
+            && self.of.protected.as_deref() == protected;
         match (&self.unsupported, &self.supports) {
             _ if !is_alike => None,
             (Some(unsupported), _) => Some(Arc::clone(unsupported)),
@@ -201,17 +205,17 @@ impl Prepared {
     }
 
     /// Returns true if it is what [`Prepared::new`] would make.
-    pub fn is_of(&self, sampling: &Sampling, spared: Option<&[f32]>) -> bool {
+    pub fn is_of(&self, sampling: &Sampling, protected: Option<&[f32]>) -> bool {
         let Preparing {
             pose,
             hollow,
             supports,
-            spared: of,
+            protected: of,
         } = &self.of;
         *pose == sampling.pose
             && *hollow == sampling.hollow
             && *supports == sampling.supports
-            && of.as_deref() == spared
+            && of.as_deref() == protected
     }
 
     /// Returns true if voids or supports are made.
@@ -240,7 +244,7 @@ impl Unsupported {
     fn new(
         model: &Mesh,
         sampling: &Sampling,
-        spared: Option<&[f32]>,
+        protected: Option<&[f32]>,
         timings: &mut Timings,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
@@ -252,7 +256,7 @@ impl Unsupported {
         let mut warnings = mesh_warnings(&mesh);
         let mut hollowed = None;
         if let Some(hollowing) = &sampling.hollow {
-            hollowed = hollow(&mut mesh, hollowing, spared, &mut warnings, progress)?;
+            hollowed = hollow(&mut mesh, hollowing, protected, &mut warnings, progress)?;
         }
         timings.ldi += ms_since(clock);
         Ok(Self {
@@ -267,11 +271,11 @@ impl Unsupported {
 fn hollow(
     mesh: &mut Mesh,
     hollowing: &Hollowing,
-    spared: Option<&[f32]>,
+    protected: Option<&[f32]>,
     warnings: &mut Vec<Warning>,
     progress: &mut Progress<'_>,
 ) -> Result<Option<Hollowed>, LdiError> {
-    let Some(void) = prepare::hollow(mesh, hollowing, spared, progress)? else {
+    let Some(void) = prepare::hollow(mesh, hollowing, protected, progress)? else {
         warnings.push(if hollowing.drains_alone() {
             Warning::NothingToDrain
         } else {

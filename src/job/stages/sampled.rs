@@ -273,8 +273,8 @@ impl Sampled {
     }
 
     /// Returns true if it was sampled like this.
-    pub fn is_of(&self, sampling: &Sampling, spared: Option<&[f32]>) -> bool {
-        self.sampling == *sampling && self.prepared.is_of(sampling, spared)
+    pub fn is_of(&self, sampling: &Sampling, protected: Option<&[f32]>) -> bool {
+        self.sampling == *sampling && self.prepared.is_of(sampling, protected)
     }
 
     /// Contacts and joints of the supports, with the reach of contacts on surfaces that these limits call too flat.

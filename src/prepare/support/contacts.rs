@@ -26,7 +26,7 @@ pub(super) struct Wishes<'a> {
     pub profile: &'a SupportProfile,
     /// Contacts that are there already.
     pub given: &'a [Contact],
-    /// Weights of the facets; those that are spared get no contact.
+    /// Weights of the facets; those that are protected get no contact.
     pub weights: Option<&'a [f32]>,
 }
 
@@ -39,7 +39,7 @@ const SAME: f64 = 0.5;
 /// Radius that a contact holds around a lone entry (see `lone_entries`), in spacings: half of that on a level surface.
 const LONE: f64 = 0.5;
 
-/// Places new contacts: those that hold the model together with the given ones, and those that it would need on spared
+/// Places new contacts: those that hold the model together with the given ones, and those that it would need on protected
 /// facets. Both ascend, which is the order in which they are printed.
 pub(super) fn place(
     model: &Surface<'_>,
@@ -53,7 +53,7 @@ pub(super) fn place(
     }
     let (mut contacts, mut missed) = (Vec::new(), Vec::new());
     let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
-    let is_spared = |facet: u32| surface::is_spared(wishes.weights, facet);
+    let is_protected = |facet: u32| surface::is_protected(wishes.weights, facet);
     let same_mm = SAME * profile.contact_mm;
     let contact = |at: DVec3| model.contact(at, profile.contact_mm, profile.contact_mm);
     let rays = Rays::new(ldi);
@@ -67,7 +67,7 @@ pub(super) fn place(
         }
         match contact(at) {
             // Facets nearby may still get contacts.
-            Some(it) if is_spared(it.facet) => missed.push(it),
+            Some(it) if is_protected(it.facet) => missed.push(it),
             found => {
                 held.insert(at);
                 contacts.extend(found);
@@ -77,8 +77,9 @@ pub(super) fn place(
     let mut places = overhangs(mesh, &rays, profile);
     sort_by_number(&mut places, |place| micrometres(place.at.z));
     // Edges come after the rest. Spared facets come last, and so show what stays without support.
-    for (spared, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
-        let these = |place: &&Place| place.is_edge == is_edge && is_spared(place.facet) == spared;
+    for (protected, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
+        let these =
+            |place: &&Place| place.is_edge == is_edge && is_protected(place.facet) == protected;
         for place in places.iter().filter(these) {
             if held.is_near(place.at, profile.reach_mm(place.slope)) {
                 continue;
@@ -86,7 +87,11 @@ pub(super) fn place(
             held.insert(place.at);
             // The plate holds what stands on it.
             if !stands(place.at) {
-                let to = if spared { &mut missed } else { &mut contacts };
+                let to = if protected {
+                    &mut missed
+                } else {
+                    &mut contacts
+                };
                 to.extend(contact(place.at));
             }
         }

@@ -40,7 +40,8 @@ pub struct Supporting {
     /// True if more are placed automatically where these points do not hold the model.
     pub fill: bool,
     /// True if automatic points keep off facets that weigh more than a half. Those that the model would need there are unreached.
-    pub spare: bool,
+    #[serde(alias = "spare")]
+    pub protect: bool,
 }
 
 /// Strength and density of supports.
@@ -324,7 +325,7 @@ pub fn support(
         let wishes = Wishes {
             profile: &profile,
             given: &contacts,
-            weights: weights.filter(|_| supporting.spare),
+            weights: weights.filter(|_| supporting.protect),
         };
         let (placed, left) = contacts::place(&surface, &ldi, &wishes);
         contacts.extend(placed);

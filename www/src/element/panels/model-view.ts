@@ -333,7 +333,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
   /** Returns true if the view shows weights: while they are painted, and while supports or holes that avoid large weights are placed. */
   get #showsHeat(): boolean {
     const { tool, colours, settings, weights } = this;
-    return tool === "paint" ? colours !== "layers" : places(tool) && settings.spare === "on" && (weights !== null || this.#counts);
+    return tool === "paint" ? colours !== "layers" : places(tool) && settings.protect === "on" && (weights !== null || this.#counts);
   }
 
   /** Returns true if saliency counts in the plan. */

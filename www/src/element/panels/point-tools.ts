@@ -123,7 +123,7 @@ export class PointEditor {
             this.#update();
           })
         : nothing}
-      ${this.#spare(words)} ${kind === "drains" ? this.#plugs(words) : nothing}
+      ${this.#protect(words)} ${kind === "drains" ? this.#plugs(words) : nothing}
     </section>`;
   }
 
@@ -174,7 +174,7 @@ export class PointEditor {
   }
 
   /** Without weights there is nothing to avoid. */
-  #spare(words: PlacingTexts): TemplateResult {
+  #protect(words: PlacingTexts): TemplateResult {
     const { weights, settings } = this.#session;
     const isPossible = weights !== null || settings.saliency === "on";
     return html`<div>
@@ -182,13 +182,13 @@ export class PointEditor {
         <input
           type="checkbox"
           role="switch"
-          aria-describedby=${isPossible ? nothing : "spare-hint"}
+          aria-describedby=${isPossible ? nothing : "protect-hint"}
           ?disabled=${!isPossible}
-          .checked=${live(settings.spare === "on")}
-          @change=${() => this.#session.change({ spare: settings.spare === "on" ? "off" : "on" })}
-        />${words.spare}
+          .checked=${live(settings.protect === "on")}
+          @change=${() => this.#session.change({ protect: settings.protect === "on" ? "off" : "on" })}
+        />${words.protect}
       </label>
-      ${isPossible ? nothing : html`<p class="quiet hint" id="spare-hint">${words.spareHint}</p>`}
+      ${isPossible ? nothing : html`<p class="quiet hint" id="protect-hint">${words.protectHint}</p>`}
     </div>`;
   }
 

@@ -114,11 +114,11 @@ test("holes are taken, added and placed anew likewise, in the direction that the
 });
 
 test("as options, points are what they are in the address", () => {
-  const query = "supports=light&fill=on&spare=on&drain=none&wall=2&points=1%2C2%2C3%2C0.8%2C1%3B4%2C5%2C6%2C%2C0&drains=1%2C2%2C3%2C0%2C0%2C1%2C3%2C1";
+  const query = "supports=light&fill=on&protect=on&drain=none&wall=2&points=1%2C2%2C3%2C0.8%2C1%3B4%2C5%2C6%2C%2C0&drains=1%2C2%2C3%2C0%2C0%2C1%2C3%2C1";
   const settings = fromAddress(query);
   expect(toAddress(settings)).toBe(query);
   expect(optionsOf(settings)).toMatchObject({
-    supports: { strength: "light", points: [{ at_mm: [1, 2, 3], contact_mm: 0.8 }, { at_mm: [4, 5, 6] }], fill: true, spare: true },
+    supports: { strength: "light", points: [{ at_mm: [1, 2, 3], contact_mm: 0.8 }, { at_mm: [4, 5, 6] }], fill: true, protect: true },
     hollow: { wall_mm: 2, drains: [{ at_mm: [1, 2, 3], direction: [0, 0, 1], diameter_mm: 3 }] },
   });
   expect(optionsOf(settings).hollow).not.toHaveProperty("auto_drain");

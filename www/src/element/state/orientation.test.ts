@@ -153,7 +153,7 @@ test("a search is outdated when something changes that it depends on, and only t
   expect(isCurrent({}, new Float32Array(1))).toBe(false);
   // Without supports, medium ones are estimated; the places of points do not matter.
   expect(isCurrent({ supports: {} })).toBe(true);
-  expect(isCurrent({ supports: { strength: "medium", points: [{ at_mm: [0, 0, 1] }], fill: true, spare: true } })).toBe(true);
+  expect(isCurrent({ supports: { strength: "medium", points: [{ at_mm: [0, 0, 1] }], fill: true, protect: true } })).toBe(true);
   expect(isCurrent({ supports: { strength: "heavy" } })).toBe(false);
   expect(isCurrent({ supports: { profile: { contact_mm: 0.5 } } })).toBe(false);
   directions.aim({ alpha: 1 });

@@ -82,7 +82,7 @@ const CHANGES: { readonly [Key in keyof Settings]: readonly [change: Settings[Ke
   drains: ["0,0,5,0,0,-1,3,1", true],
   supports: ["heavy", true],
   points: ["1,1,5,,1", true],
-  spare: ["on", true],
+  protect: ["on", true],
   // Until points are placed by hand, all are automatic.
   fill: ["on", false],
   layerMin: ["0.04", false],

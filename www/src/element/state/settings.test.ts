@@ -155,7 +155,8 @@ test("a query sets settings, and unknown keys and choices are ignored", () => {
   expect(fromAddress("?rays=7&planner=best&metric=beauty&minimize=cost&snap=on&constructor=1")).toEqual(DEFAULT_SETTINGS);
 });
 
-test("a metric is known by its name of earlier versions, too", () => {
+test("names of earlier versions are known", () => {
+  expect(fromAddress("?spare=on").protect).toBe("on");
   expect(fromAddress("?metric=thread").metric).toBe("filament-roundness");
 });
 
@@ -287,8 +288,8 @@ test("walls make a model hollow, which drains unless that is turned off, and are
   expect(options(DEFAULT_SETTINGS)).not.toHaveProperty("hollow");
   expect(options(hollow)).toMatchObject({ hollow: { wall_mm: 1.5, auto_drain: {} } });
   // One setting controls both supports and holes.
-  expect(options({ ...hollow, spare: "on" })).toHaveProperty("hollow", { wall_mm: 1.5, auto_drain: { spare: true } });
-  expect(options({ ...hollow, spare: "on", supports: "light" })).toMatchObject({ supports: { spare: true }, hollow: { auto_drain: { spare: true } } });
+  expect(options({ ...hollow, protect: "on" })).toHaveProperty("hollow", { wall_mm: 1.5, auto_drain: { protect: true } });
+  expect(options({ ...hollow, protect: "on", supports: "light" })).toMatchObject({ supports: { protect: true }, hollow: { auto_drain: { protect: true } } });
   expect(options({ ...hollow, infill: "lattice", drain: "none" })).toHaveProperty("hollow", { wall_mm: 1.5, infill: {} });
   expect(check({ ...hollow, wall: "0.3" })).toMatchObject({ ok: false, faults: { wall: { kind: "range", least: 0.4, most: 50 } } });
   expect(options({ ...hollow, ...withFormat(hollow, "prusa-3mf") })).not.toHaveProperty("hollow");

@@ -42,7 +42,7 @@ interface Choices {
   /** If on, automatic supports are added to those by hand. */
   fill: "off" | "on";
   /** If on, automatic supports and drain holes avoid areas painted as important. */
-  spare: "off" | "on";
+  protect: "off" | "on";
   /** Infill of a hollow model's void. */
   infill: "none" | "lattice";
   /** If auto, a hollow model gets drain holes automatically. */
@@ -112,7 +112,7 @@ export const DEFAULT_SETTINGS: Settings = {
   saliency: DEFAULTS.saliency ? "on" : "off",
   supports: "none",
   fill: "off",
-  spare: "off",
+  protect: "off",
   infill: "none",
   drain: "auto",
   weightMin: String(DEFAULTS.weight_min),
@@ -211,7 +211,7 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   saliency: ["off", "on"],
   supports: ["none", "light", "medium", "heavy"],
   fill: ["off", "on"],
-  spare: ["off", "on"],
+  protect: ["off", "on"],
   infill: ["none", "lattice"],
   drain: ["auto", "none"],
   weightMin: WEIGHT_STEPS,
@@ -229,7 +229,7 @@ export function fromAddress(query: string): Settings {
   const nozzle = canonical(address.get("nozzle") ?? "", UNITS.nozzle);
   const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "", nozzle) };
   const choose = <Key extends keyof Choices>(key: Key): void => {
-    const asked = address.get(key);
+    const asked = address.get(key) ?? (key === "protect" ? address.get("spare") : null);
     const choice = CHOICES[key].find((choice) => asked !== null && choice === currentName(asked));
     if (choice !== undefined) (settings as Choices)[key] = choice;
   };
@@ -324,7 +324,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     within(field, settings[field], thinnest, thickest);
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
-  const isSparing = settings.spare === "on";
+  const isProtecting = settings.protect === "on";
   // Slicers for filament printers add supports and hollow by themselves.
   if (settings.supports !== "none" && settings.points !== NO_POINTS && !isFilament(settings.format)) {
     options.supports = { strength: settings.supports };
@@ -333,7 +333,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
       options.supports.points = points.map(({ at_mm, diameter_mm }) => ({ at_mm: [...at_mm], ...(diameter_mm !== null && { contact_mm: diameter_mm }) }));
       if (settings.fill === "on") options.supports.fill = true;
     }
-    if (isSparing) options.supports.spare = true;
+    if (isProtecting) options.supports.protect = true;
   }
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
     options.hollow = { wall_mm: within("wall", settings.wall, FACTS.wall_least_mm, THICKEST_WALL_MM) };
@@ -344,7 +344,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
         inward === null || diameter_mm === null ? [] : [{ at_mm: [...at_mm], direction: [...inward], diameter_mm }],
       );
     }
-    if (settings.drain === "auto") options.hollow.auto_drain = isSparing ? { spare: true } : {};
+    if (settings.drain === "auto") options.hollow.auto_drain = isProtecting ? { protect: true } : {};
   }
 
   if (planner === "uniform") {

@@ -34,9 +34,9 @@ export interface PlacingTexts {
   lock: string;
   remove: string;
   /** Label of the switch by which automatic supports and drain holes avoid large painted weights. */
-  spare: string;
+  protect: string;
   /** Explains that it applies to both, and needs painted weights. */
-  spareHint: string;
+  protectHint: string;
   /** Label of the button that saves plugs for the holes. */
   plugs: string;
   /** Explains the use of plugs. */

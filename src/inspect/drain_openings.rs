@@ -148,7 +148,7 @@ fn rows_with_rooms(lit: &Rows, reach: i32) -> Vec<bool> {
 }
 
 /// The rooms of the layers so far.
-pub(super) struct Escapes<'a> {
+pub(super) struct Openings<'a> {
     frame: &'a Frame<'a>,
     limits: &'a Limits,
     forest: Forest,
@@ -158,7 +158,7 @@ pub(super) struct Escapes<'a> {
     found: Vec<(Finding, u32)>,
 }
 
-impl<'a> Escapes<'a> {
+impl<'a> Openings<'a> {
     pub fn new(frame: &'a Frame<'a>, limits: &'a Limits) -> Self {
         Self {
             frame,
