@@ -1,10 +1,17 @@
 //! The area deviation (eq. 11 to 14). The density is |A′| / A. The error of a layer is the fraction by which its section
 //! grows or shrinks from bottom to top; it has no unit.
 
+use super::{ErrorRule, Row};
 use crate::grid::Bins;
 
-/// The default tolerance: a tenth of the section.
-pub const DEFAULT_TOLERANCE: f64 = 0.1;
+/// The row of the area deviation. The default tolerance is a tenth of the section.
+pub(super) const ROW: Row = Row {
+    name: "area",
+    unit: "",
+    default_tolerance: 0.1,
+    is_distance: false,
+    error: ErrorRule::Area,
+};
 
 /// The maximum density, per millimetre. The formula is unbounded: A is 0 at a tip, and A′ is infinite at a flat. With
 /// this cap, layers of 0.05 mm stay within the default tolerance everywhere.

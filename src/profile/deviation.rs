@@ -11,11 +11,17 @@
 //! shelves between it and its neighbours. On an even slope it is t/2 · |`n_z`|, for a layer that ends next to a flat it
 //! is the distance to the flat, and it is never more than t/2, the way straight up or down to the middle.
 
-use super::{Reach, STEPS_PER_BIN};
+use super::{ErrorRule, Reach, Row, STEPS_PER_BIN};
 use crate::grid::Bins;
 
-/// The default tolerance in millimetres: half the default cusp height, which lies on both sides of the surface.
-pub const DEFAULT_TOLERANCE_MM: f64 = 0.0325;
+/// The row of the deviation. The default tolerance is half the default cusp height, which lies on both sides of the surface.
+pub(super) const ROW: Row = Row {
+    name: "deviation",
+    unit: "mm",
+    default_tolerance: 0.0325,
+    is_distance: true,
+    error: ErrorRule::Deviation,
+};
 
 /// Weights are rounded up to multiples of one over this.
 const WEIGHT_LEVELS: u8 = 8;

@@ -5,22 +5,27 @@
 //! process revisited", *IEEE CASE* 2017, measured that it leaves an error of 0.184 times the thickness of the layer. `PrusaSlicer`
 //! limits its adaptive layers by the same number.
 
-/// The default tolerance in millimetres: that of the cusp height, from which the error differs on steep walls alone. These may
-/// then have layers of up to 0.35 mm.
-pub const DEFAULT_TOLERANCE_MM: f64 = super::cusp::DEFAULT_TOLERANCE_MM;
+use super::{ErrorRule, Row, cusp};
+
+/// The row of filament roundness. The default tolerance is that of the cusp height, from which the error differs on steep walls alone.
+/// These may then have layers of up to 0.35 mm. Where there is no surface the density is that of a wall: rays meet no upright walls, and
+/// every layer has a wall.
+pub(super) const ROW: Row = Row {
+    name: "filament-roundness",
+    unit: "mm",
+    default_tolerance: cusp::ROW.default_tolerance,
+    is_distance: true,
+    error: ErrorRule::Slope {
+        density: density_of,
+        without: OF_A_WALL,
+    },
+};
 
 /// The density of a vertical wall.
-pub const OF_A_WALL: f32 = 0.184;
-
-/// The density of each bin, 0.184 to 1, from its largest `n_z²`. It is that of a wall where there is no surface: rays meet no upright
-/// walls, and every layer has a wall.
-pub fn density(steepest: &[f32]) -> Vec<f32> {
-    let squares = steepest.iter().map(|square| square.max(0.0));
-    squares.map(density_of).collect()
-}
+const OF_A_WALL: f32 = 0.184;
 
 /// The density of a surface with this `n_z²`.
-pub(super) fn density_of(square: f32) -> f32 {
+fn density_of(square: f32) -> f32 {
     let slope = square.sqrt();
     if slope > OF_A_WALL { slope } else { OF_A_WALL }
 }

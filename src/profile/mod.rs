@@ -58,40 +58,46 @@ impl Metric {
         Self::Volume,
     ];
 
+    /// The row of the metric: a new one is a file with a row, and a line here.
+    fn row(self) -> &'static Row {
+        match self {
+            Self::Cusp => &cusp::ROW,
+            Self::Deviation => &deviation::ROW,
+            Self::FilamentRoundness => &filament_roundness::ROW,
+            Self::Roughness => &roughness::ROW,
+            Self::Area => &area::ROW,
+            Self::Volume => &volume::ROW,
+        }
+    }
+
     /// The name of the metric, as in reports.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Cusp => "cusp",
-            Self::Deviation => "deviation",
-            Self::FilamentRoundness => "filament-roundness",
-            Self::Roughness => "roughness",
-            Self::Area => "area",
-            Self::Volume => "volume",
-        }
+        self.row().name
     }
 
     /// Returns true if it is computed from normal cones.
     pub fn needs_cones(self) -> bool {
-        self == Self::Deviation
+        matches!(self.row().error, ErrorRule::Deviation)
     }
 
     /// Returns true if it is computed from the areas of sections.
     pub fn needs_areas(self) -> bool {
-        matches!(self, Self::Area | Self::Volume)
+        matches!(self.row().error, ErrorRule::Area | ErrorRule::Volume)
     }
 
     /// Returns true if its errors are distances of the print from the model.
     pub fn is_distance(self) -> bool {
-        matches!(self, Self::Cusp | Self::Deviation | Self::FilamentRoundness)
+        self.row().is_distance
     }
 
     /// The unit of its errors and tolerances; empty for a fraction.
     pub fn unit(self) -> &'static str {
-        match self {
-            Self::Cusp | Self::Deviation | Self::FilamentRoundness | Self::Roughness => "mm",
-            Self::Area => "",
-            Self::Volume => "mm³",
-        }
+        self.row().unit
+    }
+
+    /// The default tolerance, in the metric's unit.
+    pub fn default_tolerance(self) -> f64 {
+        self.row().default_tolerance
     }
 
     /// Formats an error or tolerance with its unit, to at most four decimals; a fraction is shown as a percentage.
@@ -107,18 +113,36 @@ impl Metric {
         };
         format!("{number:.decimals$} {unit}")
     }
+}
 
-    /// The default tolerance, in the metric's unit.
-    pub fn default_tolerance(self) -> f64 {
-        match self {
-            Self::Cusp => cusp::DEFAULT_TOLERANCE_MM,
-            Self::Deviation => deviation::DEFAULT_TOLERANCE_MM,
-            Self::FilamentRoundness => filament_roundness::DEFAULT_TOLERANCE_MM,
-            Self::Roughness => roughness::DEFAULT_TOLERANCE_MM,
-            Self::Area => area::DEFAULT_TOLERANCE,
-            Self::Volume => volume::DEFAULT_TOLERANCE_MM3,
-        }
-    }
+/// Everything that distinguishes a metric from others, except its words.
+struct Row {
+    /// Name in options and reports.
+    name: &'static str,
+    /// Unit of errors and tolerances; empty for a fraction, which is shown as a percentage.
+    unit: &'static str,
+    /// Default tolerance on resin printers, in that unit.
+    default_tolerance: f64,
+    /// True if errors are distances of the print from the model.
+    is_distance: bool,
+    error: ErrorRule,
+}
+
+/// Rule for the error of a layer.
+enum ErrorRule {
+    /// The sum of a density of the steepest surface in each bin.
+    Slope {
+        /// The density of a surface with this `n_z²`.
+        density: fn(f32) -> f32,
+        /// The density of a bin without any surface.
+        without: f32,
+    },
+    /// The sum of [`area::density`].
+    Area,
+    /// [`VolumeError`].
+    Volume,
+    /// [`DeviationError`].
+    Deviation,
 }
 
 /// Source of a profile.
@@ -153,13 +177,13 @@ pub struct Shape {
 impl Shape {
     /// The profile of a metric. A metric of areas needs [`Self::areas_mm2`], the deviation [`Self::cones`].
     pub fn profile(&self, metric: Metric) -> Profile {
-        let density = match metric {
-            Metric::Cusp => cusp::density(&self.steepest),
-            Metric::Deviation => cusp::density(&self.cones),
-            Metric::FilamentRoundness => filament_roundness::density(&self.steepest),
-            Metric::Roughness => roughness::density(&self.steepest),
-            Metric::Area => area::density(&self.areas_mm2, self.bins),
-            Metric::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),
+        let density = match metric.row().error {
+            ErrorRule::Slope { density, without } => {
+                steepest::densities(&self.steepest, without, density)
+            }
+            ErrorRule::Deviation => steepest::densities(&self.cones, 0.0, cusp::density_of),
+            ErrorRule::Area => area::density(&self.areas_mm2, self.bins),
+            ErrorRule::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),
         };
         Profile {
             bins: self.bins,
@@ -169,12 +193,14 @@ impl Shape {
 
     /// The errors of layers under a metric.
     pub fn errors(&self, metric: Metric) -> LayerErrors {
-        match metric {
-            Metric::Deviation => {
+        match metric.row().error {
+            ErrorRule::Deviation => {
                 LayerErrors::Deviation(DeviationError::new(&self.cones, self.bins))
             }
-            Metric::Volume => LayerErrors::Volume(VolumeError::new(&self.areas_mm2, self.bins)),
-            metric => LayerErrors::Sum(self.profile(metric).error_sum()),
+            ErrorRule::Volume => LayerErrors::Volume(VolumeError::new(&self.areas_mm2, self.bins)),
+            ErrorRule::Slope { .. } | ErrorRule::Area => {
+                LayerErrors::Sum(self.profile(metric).error_sum())
+            }
         }
     }
 }

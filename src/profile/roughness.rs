@@ -3,19 +3,23 @@
 //!
 //! A vertical wall has density 1: the error of a layer is its thickness.
 
-use super::steepest::densities;
+use super::{ErrorRule, Row};
 
-/// The default tolerance in millimetres: the roughness of a vertical wall in layers of 0.1 mm.
-pub const DEFAULT_TOLERANCE_MM: f64 = 0.1;
+/// The row of the roughness. The default tolerance is the roughness of a vertical wall in layers of 0.1 mm.
+pub(super) const ROW: Row = Row {
+    name: "roughness",
+    unit: "mm",
+    default_tolerance: 0.1,
+    is_distance: false,
+    error: ErrorRule::Slope {
+        density: density_of,
+        without: 0.0,
+    },
+};
 
 /// The maximum density. The formula is unbounded: sin θ is 0 for a horizontal surface. Surfaces less than 30° from
 /// horizontal count as if they were at 30°, so layers of 0.05 mm stay within the default tolerance everywhere.
 pub const CAP: f32 = 2.0;
-
-/// The density of each bin from its largest `n_z²`; 0 where there is no surface.
-pub fn density(steepest: &[f32]) -> Vec<f32> {
-    densities(steepest, density_of)
-}
 
 /// The density of a surface with this `n_z²`.
 pub(crate) fn density_of(square: f32) -> f32 {

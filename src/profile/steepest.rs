@@ -91,11 +91,17 @@ pub(super) fn exact_maxima(
     maxima.into_values()
 }
 
-/// The density of each bin from its maximum: 0 where there is no surface, otherwise `of` the maximum.
-pub(super) fn densities(maxima: &[f32], of: impl Fn(f32) -> f32) -> Vec<f32> {
+/// The density of each bin from its maximum: `without` where there is no surface, otherwise `of` the maximum.
+pub(super) fn densities(maxima: &[f32], without: f32, of: impl Fn(f32) -> f32) -> Vec<f32> {
     let values = maxima.iter();
     values
-        .map(|&value| if value == NO_SURFACE { 0.0 } else { of(value) })
+        .map(|&value| {
+            if value == NO_SURFACE {
+                without
+            } else {
+                of(value)
+            }
+        })
         .collect()
 }
 

@@ -4,11 +4,17 @@
 //! The error of a layer depends on where the layer begins, so there is no density to add up, and planners measure each
 //! layer. The volumes of the layer and the model bound the error, so it needs no cap.
 
-use super::repeated;
+use super::{ErrorRule, Row, repeated};
 use crate::grid::Bins;
 
-/// The default tolerance in mm³, unless the model needs more: see [`crate::job::Options::tolerance`].
-pub const DEFAULT_TOLERANCE_MM3: f64 = 1.0;
+/// The row of the volume deviation. The default tolerance is larger if the model needs more: see [`crate::job::Options::tolerance`].
+pub(super) const ROW: Row = Row {
+    name: "volume",
+    unit: "mm³",
+    default_tolerance: 1.0,
+    is_distance: false,
+    error: ErrorRule::Volume,
+};
 
 /// Steps of areas per mm². Sums are of whole numbers, so all machines agree.
 const STEPS_PER_MM2: f64 = 1e6;

@@ -8,7 +8,7 @@ use super::facet_bins::FacetBins;
 use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
-use super::{LayerErrors, Metric, Profile, Shape, area, cusp, filament_roundness, roughness};
+use super::{ErrorRule, LayerErrors, Metric, Profile, Shape, area, cusp};
 use crate::ldi::RayImage;
 use crate::progress::{Cancelled, Progress};
 
@@ -17,8 +17,8 @@ use crate::progress::{Cancelled, Progress};
 #[derive(Debug, Clone)]
 pub struct Weighted {
     metric: Metric,
-    /// The density of a vertical wall by filament roundness, with the largest weight: rays meet no upright walls.
-    wall: f32,
+    /// The density where there is no surface, with the largest weight: rays meet no upright walls.
+    without: f32,
     values: Vec<f32>,
     /// For the deviation, the largest `n_z²` over the normal cones of each bin whose weight is at least a level, with that level.
     levels: Vec<(f32, Vec<f32>)>,
@@ -28,11 +28,9 @@ pub struct Weighted {
 fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(usize) -> f32 {
     move |facet| {
         let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
-        match metric {
-            Metric::Cusp => weight * cusp::density_of(square),
-            Metric::FilamentRoundness => weight * filament_roundness::density_of(square),
-            Metric::Roughness => weight * roughness::density_of(square),
-            Metric::Deviation | Metric::Area | Metric::Volume => weight,
+        match metric.row().error {
+            ErrorRule::Slope { density, .. } => weight * density(square),
+            ErrorRule::Deviation | ErrorRule::Area | ErrorRule::Volume => weight,
         }
     }
 }
@@ -87,11 +85,14 @@ impl Weighted {
             0.0,
             |most: f32, &weight| if most < weight { weight } else { most },
         );
-        let wall = largest * filament_roundness::OF_A_WALL;
-        if metric != Metric::Deviation {
+        let without = match metric.row().error {
+            ErrorRule::Slope { without, .. } => largest * without,
+            _ => 0.0,
+        };
+        if !metric.needs_cones() {
             return Ok(Self {
                 metric,
-                wall,
+                without,
                 values: maxima(&value_of(facet_bins, metric, weights))?,
                 levels: Vec::new(),
             });
@@ -119,7 +120,7 @@ impl Weighted {
         }
         Ok(Self {
             metric,
-            wall,
+            without,
             values,
             levels,
         })
@@ -130,22 +131,11 @@ impl Weighted {
     /// For the volume deviation it is the unweighted areas; the weights apply to a layer's deviation from its base.
     /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
-        let density = match self.metric {
-            Metric::Cusp | Metric::Deviation | Metric::Roughness => {
-                steepest::densities(&self.values, |value| value)
+        let density = match self.metric.row().error {
+            ErrorRule::Slope { .. } | ErrorRule::Deviation => {
+                steepest::densities(&self.values, self.without, |value| value)
             }
-            Metric::FilamentRoundness => self
-                .values
-                .iter()
-                .map(|&value| {
-                    if value == NO_SURFACE {
-                        self.wall
-                    } else {
-                        value
-                    }
-                })
-                .collect(),
-            Metric::Area => {
+            ErrorRule::Area => {
                 let densities = area::density(&shape.areas_mm2, shape.bins);
                 densities
                     .iter()
@@ -153,7 +143,7 @@ impl Weighted {
                     .map(|(density, weight)| density * weight)
                     .collect()
             }
-            Metric::Volume => return shape.profile(Metric::Volume),
+            ErrorRule::Volume => return shape.profile(self.metric),
         };
         Profile {
             bins: shape.bins,
@@ -163,15 +153,17 @@ impl Weighted {
 
     /// The weighted errors of layers.
     pub fn errors(&self, shape: &Shape) -> LayerErrors {
-        match self.metric {
-            Metric::Volume => {
+        match self.metric.row().error {
+            ErrorRule::Volume => {
                 let weights = self.weights().collect();
                 LayerErrors::Volume(VolumeError::weighted(&shape.areas_mm2, weights, shape.bins))
             }
-            Metric::Deviation => {
+            ErrorRule::Deviation => {
                 LayerErrors::Deviation(DeviationError::weighted(&self.levels, shape.bins))
             }
-            _ => LayerErrors::Sum(self.profile(shape).error_sum()),
+            ErrorRule::Slope { .. } | ErrorRule::Area => {
+                LayerErrors::Sum(self.profile(shape).error_sum())
+            }
         }
     }
 
