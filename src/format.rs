@@ -62,12 +62,12 @@ impl Format {
 
     /// Returns true if its files hold masks, for resin printers.
     pub fn has_masks(self) -> bool {
-        Self::MASKS.contains(&self)
+        self.row().container != Container::Model
     }
 
     /// Returns true if its files are zips of masks, each deflated: that takes much longer than reading their runs.
     pub fn is_zip(self) -> bool {
-        self.has_masks() && !matches!(self, Self::Goo | Self::PhotonWorkshop | Self::Ctb)
+        self.row().container == Container::Zip
     }
 
     /// The formats that have a thickness for every layer, and that some printer or program is known to read it from.
@@ -75,54 +75,96 @@ impl Format {
 
     /// The thicknesses that its files can have.
     pub fn thicknesses(self) -> FormatThicknesses {
-        match self {
-            Self::Sl1 => FormatThicknesses::OneAboveFirst,
-            Self::Nanodlp => FormatThicknesses::One,
-            _ => FormatThicknesses::Any,
-        }
+        self.row().thicknesses
+    }
+
+    /// The number of greys of its masks, black and white included.
+    pub fn grey_levels(self) -> u32 {
+        self.row().grey_levels
     }
 
     /// The name of the format, as in options.
     pub fn name(self) -> &'static str {
-        match self {
-            Self::Png => "png",
-            Self::Chitubox => "chitubox",
-            Self::Uvj => "uvj",
-            Self::Sl1 => "sl1",
-            Self::Goo => "goo",
-            Self::PhotonWorkshop => "photon-workshop",
-            Self::AnycubicZip => "anycubic-zip",
-            Self::Ctb => "ctb",
-            Self::Nanodlp => "nanodlp",
-            Self::Prusa3mf => "prusa-3mf",
-            Self::Orca3mf => "orca-3mf",
-        }
+        self.row().name
     }
 
     /// The file extension, without a dot, if no printer says otherwise.
     pub fn extension(self) -> &'static str {
-        match self {
-            Self::Png | Self::Chitubox => "zip",
-            Self::Uvj => "uvj",
-            Self::Sl1 => "sl1",
-            Self::Goo => "goo",
-            Self::PhotonWorkshop => "pwmx",
-            Self::AnycubicZip => "pwsz",
-            Self::Ctb => "ctb",
-            Self::Nanodlp => "nanodlp",
-            Self::Prusa3mf | Self::Orca3mf => "3mf",
-        }
+        self.row().extension
     }
 
     /// The media type. A zip with an extension of its own is not declared as `application/zip`, because browsers might
     /// unpack or rename it.
     pub fn media_type(self) -> &'static str {
-        match self {
-            Self::Png | Self::Chitubox => "application/zip",
-            Self::Prusa3mf | Self::Orca3mf => "model/3mf",
+        match self.row() {
+            Row {
+                extension: "zip", ..
+            } => "application/zip",
+            Row {
+                extension: "3mf", ..
+            } => "model/3mf",
             _ => "application/octet-stream",
         }
     }
+
+    /// The row of the format. What writes its files is listed in [`crate::archive`], what reads them in [`crate::archive::read`].
+    fn row(self) -> Row {
+        let masks = |name, extension, container| Row {
+            name,
+            extension,
+            container,
+            thicknesses: FormatThicknesses::Any,
+            grey_levels: 256,
+        };
+        match self {
+            Self::Png => masks("png", "zip", Container::Zip),
+            Self::Chitubox => masks("chitubox", "zip", Container::Zip),
+            Self::Uvj => masks("uvj", "uvj", Container::Zip),
+            Self::Sl1 => Row {
+                thicknesses: FormatThicknesses::OneAboveFirst,
+                ..masks("sl1", "sl1", Container::Zip)
+            },
+            Self::Goo => masks("goo", "goo", Container::Binary),
+            Self::PhotonWorkshop => Row {
+                grey_levels: 16,
+                ..masks("photon-workshop", "pwmx", Container::Binary)
+            },
+            Self::AnycubicZip => Row {
+                grey_levels: 16,
+                ..masks("anycubic-zip", "pwsz", Container::Zip)
+            },
+            Self::Ctb => Row {
+                grey_levels: 128,
+                ..masks("ctb", "ctb", Container::Binary)
+            },
+            Self::Nanodlp => Row {
+                thicknesses: FormatThicknesses::One,
+                ..masks("nanodlp", "nanodlp", Container::Zip)
+            },
+            Self::Prusa3mf => masks("prusa-3mf", "3mf", Container::Model),
+            Self::Orca3mf => masks("orca-3mf", "3mf", Container::Model),
+        }
+    }
+}
+
+/// Everything that distinguishes a format from others, except its words, writer and reader.
+struct Row {
+    name: &'static str,
+    extension: &'static str,
+    container: Container,
+    thicknesses: FormatThicknesses,
+    grey_levels: u32,
+}
+
+/// Kind of content.
+#[derive(PartialEq, Eq)]
+enum Container {
+    /// A zip of masks.
+    Zip,
+    /// Masks in a layout of its own.
+    Binary,
+    /// The model, with the heights of its layers.
+    Model,
 }
 
 /// The layer thicknesses that a file can have.

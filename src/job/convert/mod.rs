@@ -243,7 +243,7 @@ impl<'a> Conversion<'a> {
         if target.resin.is_none() {
             losses.extend(settings::lost_moves(file.layers(), &resin));
         }
-        let (before, after) = (levels(metadata.format), levels(format));
+        let (before, after) = (metadata.format.grey_levels(), format.grey_levels());
         if has_greys && after < before {
             losses.push(Loss::Greys { levels: after });
         }
@@ -441,15 +441,6 @@ fn check_printer(
             range_mm: printer.layer_mm,
         }),
         None => Ok(()),
-    }
-}
-
-/// The number of greys of a format, black and white included.
-fn levels(format: Format) -> u32 {
-    match format {
-        Format::PhotonWorkshop | Format::AnycubicZip => 16,
-        Format::Ctb => 128,
-        _ => 256,
     }
 }
 
