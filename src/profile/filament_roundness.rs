@@ -5,7 +5,7 @@
 //! process revisited", *IEEE CASE* 2017, measured that it leaves an error of 0.184 times the thickness of the layer. `PrusaSlicer`
 //! limits its adaptive layers by the same number.
 
-use super::{ErrorRule, Row, cusp};
+use super::{ErrorRule, Row, SlopeDensity, cusp};
 
 /// The row of filament roundness. The default tolerance is that of the cusp height, from which the error differs on steep walls alone.
 /// These may then have layers of up to 0.35 mm. Where there is no surface the density is that of a wall: rays meet no upright walls, and
@@ -15,11 +15,20 @@ pub(super) const ROW: Row = Row {
     unit: "mm",
     default_tolerance: cusp::ROW.default_tolerance,
     is_distance: true,
-    error: ErrorRule::Slope {
-        density: density_of,
-        without: OF_A_WALL,
-    },
+    error: ErrorRule::Slope(&FilamentRoundness),
 };
+
+struct FilamentRoundness;
+
+impl SlopeDensity for FilamentRoundness {
+    fn of(&self, square: f32) -> f32 {
+        density_of(square)
+    }
+
+    fn without(&self) -> f32 {
+        OF_A_WALL
+    }
+}
 
 /// The density of a vertical wall.
 const OF_A_WALL: f32 = 0.184;

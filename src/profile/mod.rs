@@ -131,18 +131,29 @@ struct Row {
 /// Rule for the error of a layer.
 enum ErrorRule {
     /// The sum of a density of the steepest surface in each bin.
-    Slope {
-        /// The density of a surface with this `n_z²`.
-        density: fn(f32) -> f32,
-        /// The density of a bin without any surface.
-        without: f32,
-    },
+    Slope(&'static dyn SlopeDensity),
     /// The sum of [`area::density`].
     Area,
     /// [`VolumeError`].
     Volume,
     /// [`DeviationError`].
     Deviation,
+}
+
+/// A density that depends on the slope of the surface alone.
+trait SlopeDensity: Sync {
+    /// The density of a surface with this `n_z²`.
+    fn of(&self, square: f32) -> f32;
+
+    /// The density of a bin without any surface.
+    fn without(&self) -> f32 {
+        0.0
+    }
+
+    /// The density of each bin from its largest `n_z²`. Compiled for each density, so that its loop is vectorised.
+    fn densities(&self, steepest: &[f32]) -> Vec<f32> {
+        steepest::densities(steepest, self.without(), |square| self.of(square))
+    }
 }
 
 /// Source of a profile.
@@ -178,9 +189,7 @@ impl Shape {
     /// The profile of a metric. A metric of areas needs [`Self::areas_mm2`], the deviation [`Self::cones`].
     pub fn profile(&self, metric: Metric) -> Profile {
         let density = match metric.row().error {
-            ErrorRule::Slope { density, without } => {
-                steepest::densities(&self.steepest, without, density)
-            }
+            ErrorRule::Slope(slope) => slope.densities(&self.steepest),
             ErrorRule::Deviation => steepest::densities(&self.cones, 0.0, cusp::density_of),
             ErrorRule::Area => area::density(&self.areas_mm2, self.bins),
             ErrorRule::Volume => self.areas_mm2.iter().map(|&area| area as f32).collect(),
@@ -198,7 +207,7 @@ impl Shape {
                 LayerErrors::Deviation(DeviationError::new(&self.cones, self.bins))
             }
             ErrorRule::Volume => LayerErrors::Volume(VolumeError::new(&self.areas_mm2, self.bins)),
-            ErrorRule::Slope { .. } | ErrorRule::Area => {
+            ErrorRule::Slope(_) | ErrorRule::Area => {
                 LayerErrors::Sum(self.profile(metric).error_sum())
             }
         }

@@ -3,7 +3,7 @@
 //!
 //! A vertical wall has density 1: the error of a layer is its thickness.
 
-use super::{ErrorRule, Row};
+use super::{ErrorRule, Row, SlopeDensity};
 
 /// The row of the roughness. The default tolerance is the roughness of a vertical wall in layers of 0.1 mm.
 pub(super) const ROW: Row = Row {
@@ -11,11 +11,16 @@ pub(super) const ROW: Row = Row {
     unit: "mm",
     default_tolerance: 0.1,
     is_distance: false,
-    error: ErrorRule::Slope {
-        density: density_of,
-        without: 0.0,
-    },
+    error: ErrorRule::Slope(&Roughness),
 };
+
+struct Roughness;
+
+impl SlopeDensity for Roughness {
+    fn of(&self, square: f32) -> f32 {
+        density_of(square)
+    }
+}
 
 /// The maximum density. The formula is unbounded: sin θ is 0 for a horizontal surface. Surfaces less than 30° from
 /// horizontal count as if they were at 30°, so layers of 0.05 mm stay within the default tolerance everywhere.

@@ -29,7 +29,7 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
     move |facet| {
         let (weight, square) = (weights[facet], facet_bins.n_z_squared[facet]);
         match metric.row().error {
-            ErrorRule::Slope { density, .. } => weight * density(square),
+            ErrorRule::Slope(slope) => weight * slope.of(square),
             ErrorRule::Deviation | ErrorRule::Area | ErrorRule::Volume => weight,
         }
     }
@@ -86,7 +86,7 @@ impl Weighted {
             |most: f32, &weight| if most < weight { weight } else { most },
         );
         let without = match metric.row().error {
-            ErrorRule::Slope { without, .. } => largest * without,
+            ErrorRule::Slope(slope) => largest * slope.without(),
             _ => 0.0,
         };
         if !metric.needs_cones() {
@@ -132,7 +132,7 @@ impl Weighted {
     /// Multiplying the areas themselves, as eq. 24 does, would find errors on an upright prism wherever its weight changes.
     pub fn profile(&self, shape: &Shape) -> Profile {
         let density = match self.metric.row().error {
-            ErrorRule::Slope { .. } | ErrorRule::Deviation => {
+            ErrorRule::Slope(_) | ErrorRule::Deviation => {
                 steepest::densities(&self.values, self.without, |value| value)
             }
             ErrorRule::Area => {
@@ -161,7 +161,7 @@ impl Weighted {
             ErrorRule::Deviation => {
                 LayerErrors::Deviation(DeviationError::weighted(&self.levels, shape.bins))
             }
-            ErrorRule::Slope { .. } | ErrorRule::Area => {
+            ErrorRule::Slope(_) | ErrorRule::Area => {
                 LayerErrors::Sum(self.profile(shape).error_sum())
             }
         }

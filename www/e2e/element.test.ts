@@ -191,7 +191,7 @@ test("attributes that make no sense are for the page's developer: told, and the 
     ...["quality=high", "tolerance=NaN", "tolerance=abc", "tolerance=thin"],
   ]);
   await expect.poll(() => warnings.filter((text) => text.startsWith("<cusp-slicer>: "))).toHaveLength(values.length);
-  expect(warnings.join("\n")).toContain(`metric="cups" is none of cusp, deviation, thread, roughness, area, volume; the last good value stays`);
+  expect(warnings.join("\n")).toContain(`metric="cups" is none of cusp, deviation, filament-roundness, roughness, area, volume; the last good value stays`);
   expect(found.told).toContainEqual(expect.objectContaining({ attribute: "printer", known: expect.arrayContaining(["saturn-3-ultra"]) }));
 });
 
