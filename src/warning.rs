@@ -426,12 +426,12 @@ impl std::fmt::Display for Warning {
             }
             Self::UntriedThicknesses { model } => write!(
                 f,
-                "nobody has told whether the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
+                "it is not confirmed that the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
                  makes and measure it, or choose the uniform planner"
             ),
             Self::UntriedSlicer { slicers } => write!(
                 f,
-                "nobody has told whether {} prints the layers of such a file as planned; compare the number and the heights of the \
+                "it is not confirmed that {} prints the layers of such a file as planned; compare the number and the heights of the \
                  layers in its preview before you print",
                 slicers.join(" or ")
             ),

@@ -159,7 +159,7 @@ test("a worker that cannot start rejects with a code of its own, whatever stands
   await open("", policyFor(origin).replace(/worker-src [^;]*/, "worker-src 'none'"));
   expect(await failures(cdn.address)).toEqual(refused(`${cdn.address}worker.js could not be loaded`));
   await page.waitForSelector("cusp-slicer[state=error]");
-  expect(await page.getByRole("alert").innerText()).toContain("tell whoever runs it");
+  expect(await page.getByRole("alert").innerText()).toContain("tell its operator");
   await page.context().close();
 
   await open("", `${policyFor(origin)}; ${TRUSTED_TYPES.replace("cusp ", "")}`);

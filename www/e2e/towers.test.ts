@@ -46,7 +46,7 @@ async function written(printer: string): Promise<Buffer> {
 // Needs the native cusp: name it in the variable CUSP, or build it in ../target.
 test.skipIf(cusp === null)("towers for an untried printer are those of the command line, and the plan stays", async () => {
   const page = await opened("saturn-3");
-  const warning = page.locator(".warning", { hasText: "Nobody has told whether the Elegoo Saturn 3 prints layers of several thicknesses" });
+  const warning = page.locator(".warning", { hasText: "It is not confirmed that the Elegoo Saturn 3 prints layers of several thicknesses" });
   expect(await warning.innerText()).toContain("If they are 0.5 and 1.5\u00a0mm high, the printer takes a thickness for each layer");
   const plan = await page.locator("[part=plan]").innerText();
   const file = await towers(page, warning);

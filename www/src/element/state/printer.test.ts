@@ -71,7 +71,7 @@ test.each<[string, { printer?: string; format?: PrintFormat; taker?: string }, s
 
 test.each<[PrintFormat, string]>([
   ["prusa-3mf", "A 3MF for PrusaSlicer. Set the first layer to 0.2\u00a0mm there (Print Settings → Layers and perimeters → First layer height)"],
-  ["orca-3mf", "A 3MF for OrcaSlicer and Bambu Studio, in which nobody has tried it yet. Set the first layer to 0.2\u00a0mm there (Quality"],
+  ["orca-3mf", "A 3MF for OrcaSlicer and Bambu Studio, untested there so far. Set the first layer to 0.2\u00a0mm there (Quality"],
 ])("the line at the download says what must match in the slicer of %s", (format, said) => {
   const filament = { slicers: ["PrusaSlicer"], nozzle_mm: 0.4, first_layer_mm: 0.2, is_tried: true };
   const print_file = { format, extension: "3mf", media_type: "model/3mf", is_read_by_printer: false, filament };

@@ -225,7 +225,7 @@ export const errors = ({ count, counted, exact, mm, measure, error, either }: Fo
   "folder-without-model": () => "The folder holds no STL, 3MF or OBJ file. Drop the one with the models, or a model itself.",
   "fetch-failed": (detail) =>
     "status" in detail ? `The address did not answer with a file (HTTP ${detail.status}).` : `The address did not answer (${detail.system}).`,
-  "worker-failed": ({ system }) => `Reload the page. If that does not help, tell whoever runs it: a script is missing, or the page’s policy forbids the worker. (${system})`,
+  "worker-failed": ({ system }) => `Reload the page. If that does not help, tell its operator: a script is missing, or the page’s policy forbids the worker. (${system})`,
   "start-failed": ({ system }) => `Reload the page. If that does not help, this browser may be too old for WebAssembly. (${system})`,
   crash: ({ system }) =>
     `It may have run out of memory. It has been restarted: try again, with fewer rays if the model is large. (${system})`,

@@ -40,7 +40,7 @@ export const plan = ({ counted, plural, size }: Format) => ({
       ctb: () => "A .ctb file of version 3, not encrypted.",
       nanodlp: file,
       "prusa-3mf": () => "A 3MF for PrusaSlicer.",
-      "orca-3mf": () => "A 3MF for OrcaSlicer and Bambu Studio, in which nobody has tried it yet.",
+      "orca-3mf": () => "A 3MF for OrcaSlicer and Bambu Studio, untested there so far.",
     },
     direct: (printer: string) => `The ${printer} reads it directly.`,
     convert: (printer: string, extensions: string) => `The ${printer} reads ${extensions}: convert it with UVtools first.`,

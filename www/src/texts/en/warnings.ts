@@ -48,9 +48,9 @@ export const warnings = ({ count, counted, mm, tick, height, volume, error, eith
     `${taker} takes one thickness for all layers, and this plan has several; ` +
     (best === null ? "choose the uniform planner." : `${count(best.layers)} uniform layers of ${mm(best.layer_mm)} keep the tolerance.`),
   "untried-thicknesses": ({ model }) =>
-    `Nobody has told whether the ${model} prints layers of several thicknesses; print the test towers, or choose uniform layers.`,
+    `It is not confirmed that the ${model} prints layers of several thicknesses; print the test towers, or choose uniform layers.`,
   "untried-slicer": ({ slicers }) =>
-    `Nobody has told whether ${either(slicers)} prints the layers of such a file as planned; compare the number and the heights of the layers in its preview before you print.`,
+    `It is not confirmed that ${either(slicers)} prints the layers of such a file as planned; compare the number and the heights of the layers in its preview before you print.`,
   "gpu-too-small": ({ needed_bytes, limit_bytes }) =>
     `The CPU did the work of the GPU: the mesh needs a buffer of ${count(needed_bytes)} bytes, and the GPU offers ${count(limit_bytes)}.`,
   "gpu-failed": ({ fault, system }) =>
