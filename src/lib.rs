@@ -1,4 +1,4 @@
-//! Cusp slices 3-D models for resin printers. An STL is sampled into a layered depth image (LDI), the LDI and the facets give
+//! Cusp slices 3-D models for resin printers. A model is sampled into a layered depth image (LDI), the LDI and the facets give
 //! a metric profile (error density along z), and dynamic programming finds the fewest layers of varying thickness that keep
 //! every layer's error within a tolerance.
 //!

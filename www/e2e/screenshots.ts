@@ -24,15 +24,6 @@ async function orientation(page: Page, path: string): Promise<void> {
   await page.locator("[part=settings]").screenshot({ path });
 }
 
-async function distances(page: Page, path: string): Promise<void> {
-  await page.getByRole("switch", { name: "As printed" }).click();
-  await page.getByRole("switch", { name: "Distance from the model" }).click();
-  await page.locator("cusp-view .legend .heading", { hasText: "Distance" }).waitFor({ timeout: 180_000 });
-  // Software draws the many steps with a delay.
-  await page.waitForTimeout(3000);
-  await page.locator("cusp-view").screenshot({ path });
-}
-
 /** The example's own print file, dropped again. */
 async function printFile(page: Page, path: string): Promise<void> {
   await drop(page, { ...(await downloaded(page)), name: "goblet.goo" });
@@ -47,21 +38,12 @@ async function whole(page: Page, path: string): Promise<void> {
   await page.screenshot({ path });
 }
 
-async function mask(page: Page, path: string): Promise<void> {
-  await openPanel(page, "Mask");
-  await page.waitForSelector("canvas[data-layer]");
-  await whole(page, path);
-}
-
 /** The page as a workbench, slightly smaller than on a screen, to limit the size of the picture. */
 const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.75 };
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: DESKTOP },
-  { name: "page-dark", options: { ...DESKTOP, colorScheme: "dark" }, take: mask },
-  { name: "page-narrow", options: { viewport: { width: 390, height: 800 } } },
   { name: "page-orientation", options: { viewport: { width: 1280, height: 1240 } }, take: orientation },
-  { name: "page-distance", options: { viewport: { width: 1280, height: 800 } }, take: distances },
   { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 960, height: 500 } }, take: printFile },
 ];
 
