@@ -27,6 +27,8 @@ const preferences = (proxy: number, downloads: string) => ({
   // The protocol's own command is not in older long-term releases.
   "browser.download.folderList": 2,
   "browser.download.dir": downloads,
+  // A minute after its start Firefox would look for decoders of protected video.
+  "media.gmp-manager.updateEnabled": false,
   // Also in software.
   "webgl.force-enabled": true,
   "intl.accept_languages": "en-GB",
