@@ -96,13 +96,9 @@ impl Format {
     /// The media type. A zip with an extension of its own is not declared as `application/zip`, because browsers might
     /// unpack or rename it.
     pub fn media_type(self) -> &'static str {
-        match self.row() {
-            Row {
-                extension: "zip", ..
-            } => "application/zip",
-            Row {
-                extension: "3mf", ..
-            } => "model/3mf",
+        match self.extension() {
+            "zip" => "application/zip",
+            "3mf" => "model/3mf",
             _ => "application/octet-stream",
         }
     }

@@ -216,7 +216,7 @@ pub enum Warning {
     GpuFailed {
         /// The fault.
         fault: GpuFault,
-        /// The system's message, untranslated; absent if there is none.
+        /// Untranslated message of the system, if it gave one.
         system: Option<String>,
     },
 }

@@ -66,7 +66,7 @@ fn the_elements_document_names_the_defaults_of_the_library() {
 
 /// A row of the table of known printers.
 struct PrinterRow {
-    /// What its printers have in common: format, several thicknesses, source.
+    /// Format, several thicknesses and source, which its printers share.
     common: String,
     /// Maker of the last printer in it.
     maker: String,

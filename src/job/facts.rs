@@ -27,7 +27,7 @@ const RAY_OPTIONS: [&str; 13] = [
     "gpu_method",
 ];
 
-/// What the core decides and others repeat: the build writes it to `www/pkg/facts.json`. Lengths are in millimetres.
+/// Decisions of the core that forms repeat: the build writes them to `www/pkg/facts.json`. Lengths are in millimetres.
 #[derive(Debug, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct Facts {
@@ -94,9 +94,9 @@ pub struct FormatFacts {
     pub layer_rule: Option<LayerRule>,
 }
 
-impl Facts {
+impl Default for Facts {
     /// The facts of this version.
-    pub fn new() -> Self {
+    fn default() -> Self {
         let format = |name| FormatFacts {
             name,
             layer_rule: FilamentSlicer::of(name).map(FilamentSlicer::rule),
@@ -123,12 +123,6 @@ impl Facts {
             drain_mm: AutoDrain::default().diameter_mm,
             ray_options: RAY_OPTIONS,
         }
-    }
-}
-
-impl Default for Facts {
-    fn default() -> Self {
-        Self::new()
     }
 }
 

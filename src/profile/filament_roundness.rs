@@ -22,7 +22,8 @@ struct FilamentRoundness;
 
 impl SlopeDensity for FilamentRoundness {
     fn of(&self, square: f32) -> f32 {
-        density_of(square)
+        let slope = square.sqrt();
+        if slope > OF_A_WALL { slope } else { OF_A_WALL }
     }
 
     fn without(&self) -> f32 {
@@ -32,9 +33,3 @@ impl SlopeDensity for FilamentRoundness {
 
 /// The density of a vertical wall.
 const OF_A_WALL: f32 = 0.184;
-
-/// The density of a surface with this `n_z²`.
-fn density_of(square: f32) -> f32 {
-    let slope = square.sqrt();
-    if slope > OF_A_WALL { slope } else { OF_A_WALL }
-}

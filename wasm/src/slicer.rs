@@ -99,7 +99,7 @@ pub fn printers() -> JsValue {
 /// Defaults, bounds and formats. The build writes them to `facts.json`.
 #[wasm_bindgen(unchecked_return_type = "Facts")]
 pub fn facts() -> JsValue {
-    to_js(&Facts::new())
+    to_js(&Facts::default())
 }
 
 /// A search for the best orientation. It hands out directions to measure, and measures nothing itself. Several jobs with

@@ -87,6 +87,7 @@ impl Module {
                 .args(["--out-name", self.name, "--"])
                 .args(self.features),
         )?;
+        process::run(command("node").current_dir(&project.www).arg("facts.mjs"))?;
         fs::write(self.stamp(project), "").context("cannot write the stamp of a build")
     }
 }
@@ -109,10 +110,7 @@ pub fn build(project: &Project) -> Result<()> {
     let _guard = ONE_AT_A_TIME.lock();
     node::ensure_packages(project)?;
     ensure_tools(project)?;
-    MODULES
-        .iter()
-        .try_for_each(|module| module.build(project))?;
-    process::run(command("node").current_dir(&project.www).arg("facts.mjs"))
+    MODULES.iter().try_for_each(|module| module.build(project))
 }
 
 /// Finds wasm-pack, wasm-bindgen and the target, or installs them where cargo and rustup install for everyone.

@@ -235,7 +235,7 @@ impl<'a> Planning<'a> {
                 };
                 let layer_mm = bins.boundary_mm(units * limits.unit(bins)?);
                 match self.uniform(layer_mm) {
-                    // A model less than half a layer high is one layer here, as it is for the optimal planner.
+                    // A model less than half a layer high is one layer, as with the optimal planner.
                     Err(PlanError::LayerTooThick { .. }) => Ok(Plan {
                         bins,
                         boundaries: vec![0, bins.count as u32],

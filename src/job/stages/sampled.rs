@@ -259,7 +259,7 @@ impl Sampled {
         }
     }
 
-    /// The bound that prevents an LDI, if there is none.
+    /// Memory bound that no LDI fits into; `None` if the hits are kept.
     pub fn bound(&self) -> Option<Bound> {
         match self.hits {
             Hits::Kept(_) => None,

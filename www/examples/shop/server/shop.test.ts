@@ -318,7 +318,7 @@ test("a program that ends without an answer is not the order's fault, and does n
     expect(await post(open, { key }), ending).toMatchObject({ status: 201 });
     await expectNoLeftovers(open);
   }
-  // The operator is told of each failure.
+  // Each failure is reported to the operator.
   expect(complaints).toHaveBeenCalledTimes(4);
   complaints.mockRestore();
 });

@@ -76,7 +76,7 @@ export class Store {
   async keep(folder: string, key: string, { state, ...order }: Omit<Order, "id" | "placed_at">): Promise<Order> {
     const placed = { id: idOf(key), placed_at: new Date().toISOString(), ...order };
     await writeFile(join(folder, "order.json"), `${JSON.stringify(placed, null, 2)}\n`);
-    // Files reach the disk before they are an order, and the order before the customer is told, so that no power failure loses it.
+    // Files reach the disk before the order does, and the order before the reply to the customer: a power failure loses none.
     for (const name of await readdir(folder)) await sync(join(folder, name), "r+");
     await sync(folder);
     // Fails if there already is an order, since its folder is not empty.

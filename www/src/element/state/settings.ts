@@ -219,18 +219,25 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   unit: ["", "micron", "millimeter", "centimeter", "inch", "foot", "meter"],
 };
 
+/** An address with names of earlier versions replaced by the current ones. */
+function current(address: URLSearchParams): URLSearchParams {
+  const [metric, protect] = [address.get("metric"), address.get("spare")];
+  if (metric !== null) address.set("metric", currentName(metric));
+  if (protect !== null) address.set("protect", protect);
+  return address;
+}
+
 /**
  * Settings from a URL query such as `?height=60&metric=area&tolerance=5`, based on the defaults; other parameters are ignored. Numbers are
  * checked later, like typed ones, and may have a decimal comma and a unit. An unknown choice is ignored, as no field could show it.
  */
 export function fromAddress(query: string): Settings {
-  const address = new URLSearchParams(query);
+  const address = current(new URLSearchParams(query));
   const asked = address.get("format");
   const nozzle = canonical(address.get("nozzle") ?? "", UNITS.nozzle);
   const settings = { ...defaultsOf(CHOICES.format.find((format) => format === asked) ?? "", nozzle) };
   const choose = <Key extends keyof Choices>(key: Key): void => {
-    const asked = address.get(key) ?? (key === "protect" ? address.get("spare") : null);
-    const choice = CHOICES[key].find((choice) => asked !== null && choice === currentName(asked));
+    const choice = CHOICES[key].find((choice) => choice === address.get(key));
     if (choice !== undefined) (settings as Choices)[key] = choice;
   };
   for (const key of Object.keys(CHOICES) as (keyof Choices)[]) choose(key);
