@@ -21,6 +21,7 @@ fn item(copies: usize, resin_ml: f64, print_time_s: f64) -> PriceItem {
     PriceItem {
         copies,
         resin_ml,
+        support_ml: None,
         print_time_s,
     }
 }
@@ -166,6 +167,35 @@ fn each_line_is_rounded_alone_and_halves_go_up() {
     // A copy's half is rounded with the others of its kind, not before.
     let price = prices.price(&[item(10, 0.25, 0.0)], None).unwrap();
     assert_eq!(amount(&price, PriceKind::Resin), 1);
+}
+
+#[test]
+fn supports_of_the_plan_cost_their_resin_alone() {
+    let prices = Prices {
+        resin_per_ml: 100.0,
+        supports: 0.15,
+        ..example()
+    };
+    let lines = |items: &[PriceItem]| {
+        let price = prices.price(items, Some("sanded")).unwrap();
+        let kinds = [PriceKind::Resin, PriceKind::Supports, PriceKind::Finish];
+        kinds.map(|kind| amount(&price, kind))
+    };
+    let supported = |support_ml| PriceItem {
+        support_ml: Some(support_ml),
+        ..item(2, 10.0, 0.0)
+    };
+    assert_eq!(lines(&[item(2, 10.0, 0.0)]), [2000, 300, 2 * 150 + 80]);
+    assert_eq!(lines(&[supported(1.5)]), [2000, 0, 2 * 150 + 68]);
+    // Where nothing needs a support, nothing is estimated either.
+    assert_eq!(lines(&[supported(0.0)]), [2000, 0, 2 * 150 + 80]);
+    // Of several models those without supports are estimated.
+    let both = [supported(1.5), item(2, 10.0, 0.0)];
+    assert_eq!(lines(&both), [4000, 300, 4 * 150 + 148]);
+    for bad in [f64::NAN, -1e-9, 10.1] {
+        let error = prices.price(&[supported(bad)], None).unwrap_err();
+        assert!(error.to_string().contains("support_ml"), "{error}");
+    }
 }
 
 #[test]

@@ -44,6 +44,7 @@ pub fn settings(bytes: &[u8]) {
         let item = PriceItem {
             copies: 3,
             resin_ml: 12.5,
+            support_ml: Some(1.5),
             print_time_s: 4321.0,
         };
         match prices.price(&[item], None) {

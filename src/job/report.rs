@@ -709,6 +709,7 @@ impl Report {
         let models = self.models.iter().map(|model| PriceItem {
             copies: model.copies.saturating_mul(copies),
             resin_ml: model.resin_ml,
+            support_ml: model.supported.as_ref().map(|it| it.support_ml),
             print_time_s: model.print_time_s,
         });
         models.collect()

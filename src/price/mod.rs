@@ -15,8 +15,11 @@ pub use prices::{Finish, PriceError, Prices, QuantityBreak};
 pub struct PriceItem {
     /// Number of copies.
     pub copies: usize,
-    /// Volume of resin in a copy.
+    /// Volume of resin in a copy with its supports.
     pub resin_ml: f64,
+    /// Part of it that is in the supports; absent if the plan has none, which are then estimated.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub support_ml: Option<f64>,
     /// Print time of a copy; of one that shares a plate, its share.
     pub print_time_s: f64,
 }
@@ -31,9 +34,9 @@ pub enum PriceKind {
     Setup,
     /// Time on the machine.
     Machine,
-    /// Resin in the copies.
+    /// Resin in the copies and their planned supports.
     Resin,
-    /// Resin in their supports.
+    /// Resin in supports that are not planned: an estimate.
     Supports,
     /// The finish.
     Finish,
@@ -114,10 +117,19 @@ impl Prices {
     pub fn price(&self, items: &[PriceItem], finish: Option<&str>) -> Result<Price, PriceError> {
         self.check()?;
         let [mut copies, mut resin_ml, mut time_s] = [0.0; 3];
+        // Resin without supports, and of copies whose plan has none.
+        let [mut model_ml, mut unsupported_ml] = [0.0; 2];
         for item in items {
             let each = item.copies as f64;
             prices::within("resin_ml", item.resin_ml, 0.0, MOST)?;
             prices::within("print_time_s", item.print_time_s, 0.0, MOST)?;
+            if let Some(support_ml) = item.support_ml {
+                prices::within("support_ml", support_ml, 0.0, item.resin_ml)?;
+                model_ml += each * (item.resin_ml - support_ml);
+            } else {
+                model_ml += each * item.resin_ml;
+                unsupported_ml += each * item.resin_ml;
+            }
             copies += each;
             resin_ml += each * item.resin_ml;
             time_s += each * item.print_time_s;
@@ -130,9 +142,9 @@ impl Prices {
         let resin = whole(PriceKind::Resin, self.resin_per_ml * resin_ml)?;
         let supports = whole(
             PriceKind::Supports,
-            self.resin_per_ml * self.supports * resin_ml,
+            self.resin_per_ml * self.supports * unsupported_ml,
         )?;
-        let finished = finished.map_or(0.0, |it| it.per_copy * copies + it.per_ml * resin_ml);
+        let finished = finished.map_or(0.0, |it| it.per_copy * copies + it.per_ml * model_ml);
         let finished = whole(PriceKind::Finish, finished)?;
         let discounted = machine + resin + supports + finished;
         let discount = -whole(

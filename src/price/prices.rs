@@ -21,7 +21,7 @@ pub struct Prices {
     /// Price of a millilitre of resin.
     #[serde(default)]
     pub resin_per_ml: f64,
-    /// Resin of supports, as a fraction of that in the model.
+    /// Resin of supports, as a fraction of that in the model: an estimate for plans without supports.
     #[serde(default)]
     pub supports: f64,
     /// The finishes to choose from.
@@ -46,7 +46,7 @@ pub struct Finish {
     /// Price of each copy.
     #[serde(default)]
     pub per_copy: f64,
-    /// Price of each millilitre of resin in the model.
+    /// Price of each millilitre of resin in the model, without supports.
     #[serde(default)]
     pub per_ml: f64,
 }

@@ -25,6 +25,34 @@ fn amount(price: &Value, kind: &str) -> i64 {
 }
 
 #[test]
+fn supports_in_the_plan_are_charged_once() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    let estimating = PRICES.replace("\"setup\"", "\"supports\": 0.15, \"setup\"");
+    let estimating = estimating.replace("\"per_copy\": 250", "\"per_ml\": 1000");
+    let prices = model(&folder, "prices.json", estimating.as_bytes());
+    let price = |more: &[&str]| {
+        let command = ["price", &ball, "--prices", &prices, "--finish", "sanded"];
+        json(&on_cpu(&[&command, &PLATE[..], more, &["--json"]].concat()))
+    };
+    let bare = price(&[]);
+    let ml = |price: &Value, key: &str| price["items"][0][key].as_f64().unwrap();
+    let rounded = |amount: f64| amount.round() as i64;
+    let model_ml = ml(&bare, "resin_ml");
+    assert_eq!(amount(&bare, "supports"), rounded(150.0 * model_ml));
+    assert_eq!(amount(&bare, "finish"), rounded(1000.0 * model_ml));
+    let held = price(&["--supports", "auto"]);
+    let (resin_ml, support_ml) = (ml(&held, "resin_ml"), ml(&held, "support_ml"));
+    assert!(support_ml > 0.0 && (resin_ml - support_ml - model_ml).abs() < 1e-3 * model_ml);
+    assert_eq!(amount(&held, "resin"), rounded(1000.0 * resin_ml));
+    assert_eq!(amount(&held, "supports"), 0);
+    assert_eq!(
+        amount(&held, "finish"),
+        rounded(1000.0 * (resin_ml - support_ml))
+    );
+}
+
+#[test]
 fn copies_cost_what_their_plan_needs() {
     let folder = TempDir::new().unwrap();
     let ball = sphere(&folder);

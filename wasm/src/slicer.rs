@@ -691,7 +691,7 @@ impl Write for Chunks<'_> {
 }
 
 /// The price of an order by the prices of a shop. For each item, `items` has the number of copies, and the millilitres
-/// of resin and the seconds of one copy.
+/// of resin, those of them in supports, and the seconds of one copy. NaN stands for supports that are not planned.
 ///
 /// # Errors
 /// Throws a `CuspError`.
@@ -705,13 +705,14 @@ pub fn price(
     items: &[f64],
     finish: Option<String>,
 ) -> Result<JsValue, JsValue> {
-    let (items, _) = items.as_chunks::<3>();
+    let (items, _) = items.as_chunks::<4>();
     let items = items
         .iter()
-        .map(|&[copies, resin_ml, print_time_s]| PriceItem {
+        .map(|&[copies, resin_ml, support_ml, print_time_s]| PriceItem {
             // An invalid number of copies becomes 0, which no order may have.
             copies: copies as usize,
             resin_ml,
+            support_ml: Some(support_ml).filter(|it| !it.is_nan()),
             print_time_s,
         });
     let items: Vec<PriceItem> = items.collect();

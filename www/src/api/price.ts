@@ -11,5 +11,10 @@ export interface Ordered {
 
 /** Order items for `copies` prints of a plate. Each of the plate's copies has its share of the time. */
 export function priceItems({ models }: Report, copies = 1): PriceItem[] {
-  return models.map((model) => ({ copies: model.copies * copies, resin_ml: model.resin_ml, print_time_s: model.print_time_s }));
+  return models.map(({ copies: each, resin_ml, supported, print_time_s }) => ({
+    copies: each * copies,
+    resin_ml,
+    ...(supported !== undefined && { support_ml: supported.support_ml }),
+    print_time_s,
+  }));
 }

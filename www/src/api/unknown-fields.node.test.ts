@@ -38,7 +38,7 @@ test("so are prices, limits, models of a plate and choices of reading, and what 
       return error;
     }
   };
-  expect(failure(() => price({ currency: "EUR", setupp: 1 } as never, new Float64Array([1, 1, 1]), null))).toEqual(refused("did you mean `setup`?"));
+  expect(failure(() => price({ currency: "EUR", setupp: 1 } as never, new Float64Array([1, 1, NaN, 1]), null))).toEqual(refused("did you mean `setup`?"));
   expect(failure(() => new Job().add(file, { plate: 1 } as never))).toEqual(refused("did you mean `plate_number`?"));
   const job = jobOf(file);
   await planOf(job, { rays: 64, backend: "cpu", tolerance: undefined, resin: { exposure_s: 2.5, layer_mm: undefined } } as object);

@@ -204,7 +204,7 @@ const api: Remote = {
   // The core fills in the defaults of its list.
   printers: () => printers() as KnownPrinter[],
   price(prices, items, finish) {
-    const numbers = items.flatMap(({ copies, resin_ml, print_time_s }) => [copies, resin_ml, print_time_s]);
+    const numbers = items.flatMap(({ copies, resin_ml, support_ml = NaN, print_time_s }) => [copies, resin_ml, support_ml, print_time_s]);
     return price(prices, Float64Array.from(numbers), finish);
   },
 };
