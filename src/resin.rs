@@ -24,7 +24,8 @@ pub struct Resin {
     /// Penetration depth of the light, Dp, in millimetres. Published resin profiles fit 0.1 to 0.19 mm.
     pub penetration_mm: f64,
     /// Measured pairs of thickness in mm and exposure in s, sorted by thickness. If there are any, they replace the
-    /// curve: exposures are interpolated linearly between them, and constant beyond them.
+    /// curve: exposures are interpolated linearly between them, and follow the curve through the nearest two beyond
+    /// them. A single pair holds for all thicknesses.
     pub exposures: Vec<[f64; 2]>,
     /// Number of bottom layers, which hold the model on the plate.
     pub bottom_layers: usize,
@@ -102,24 +103,26 @@ impl Resin {
 
     /// Exposure of a layer of `thickness_mm` above the bottom layers, in seconds, rounded to the millisecond.
     pub fn exposure_s(&self, thickness_mm: f64) -> f64 {
-        let above = self
-            .exposures
-            .partition_point(|pair| pair[0] < thickness_mm);
-        let exposure_s = match (
-            self.exposures.get(above.wrapping_sub(1)),
-            self.exposures.get(above),
-        ) {
-            (None, None) => {
-                self.exposure_s * exp((thickness_mm - self.layer_mm) / self.penetration_mm)
-            }
-            (Some(pair), None) | (None, Some(pair)) => pair[1],
-            (Some(low), Some(high)) => {
-                let part = (thickness_mm - low[0]) / (high[0] - low[0]);
-                low[1] + (high[1] - low[1]) * part
+        let exposure_s = match self.exposures[..] {
+            [] => self.exposure_s * exp((thickness_mm - self.layer_mm) / self.penetration_mm),
+            [[_, exposure_s]] => exposure_s,
+            ref pairs => {
+                let above = pairs.partition_point(|pair| pair[0] < thickness_mm);
+                let above = above.clamp(1, pairs.len() - 1);
+                through(pairs[above - 1], pairs[above], thickness_mm)
             }
         };
         // Capped at 100,000 s, more than a day.
         (exposure_s * 1e3).min(1e8).round() / 1e3
+    }
+
+    /// The thinnest and the thickest layer, in millimetres, whose exposure is measured; `None` if no thickness of layers is beyond what
+    /// is measured, as there are fewer than two pairs.
+    pub fn measured_mm(&self) -> Option<[f64; 2]> {
+        match self.exposures[..] {
+            [[thinnest_mm, _], .., [thickest_mm, _]] => Some([thinnest_mm, thickest_mm]),
+            _ => None,
+        }
     }
 
     /// Time between the exposures of two layers, in seconds: lift, return and rest.
@@ -185,6 +188,40 @@ impl Resin {
     }
 }
 
+/// Exposure of a layer of `thickness_mm` by two measured pairs: linear between them, and beyond them on Jacobs' working curve through both.
+/// Exposures that do not rise fit no such curve, and the nearer one holds beyond them.
+fn through(low: [f64; 2], high: [f64; 2], thickness_mm: f64) -> f64 {
+    let part = (thickness_mm - low[0]) / (high[0] - low[0]);
+    if (0.0..=1.0).contains(&part) {
+        return low[1] + (high[1] - low[1]) * part;
+    }
+    let (nearest_s, beyond) = if part < 0.0 {
+        (low[1], part)
+    } else {
+        (high[1], part - 1.0)
+    };
+    if low[1] > 0.0 && low[1] < high[1] {
+        nearest_s * exp(beyond * ln(high[1] / low[1]))
+    } else {
+        nearest_s
+    }
+}
+
+/// The natural logarithm of a number of at least 1, by basic arithmetic and square roots alone.
+fn ln(x: f64) -> f64 {
+    const HALVINGS: i32 = 5;
+    let root = (0..HALVINGS).fold(x, |root, _| root.sqrt());
+    // The series of the inverse hyperbolic tangent, accurate to the last digits up to 1e9, a day to 0.1 ms.
+    let ratio = (root - 1.0) / (root + 1.0);
+    let mut power = ratio;
+    let mut sum = 0.0;
+    for n in 0..16 {
+        sum += power / f64::from(2 * n + 1);
+        power *= ratio * ratio;
+    }
+    2.0 * sum * f64::from(1 << HALVINGS)
+}
+
 /// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, which would make plans differ.
 fn exp(x: f64) -> f64 {
     const HALVINGS: i32 = 10;
@@ -214,6 +251,56 @@ mod tests {
             let (own, library) = (super::exp(x), x.exp());
             assert!((own / library - 1.0).abs() < 1e-12, "{x}: {own} {library}");
         }
+    }
+
+    #[test]
+    fn ln_is_that_of_the_library_to_twelve_digits() {
+        for step in 1..=400 {
+            let x = (f64::from(step) / 20.0).exp();
+            let (own, library) = (super::ln(x), x.ln());
+            assert!((own / library - 1.0).abs() < 1e-12, "{x}: {own} {library}");
+        }
+        assert_eq!(super::ln(1.0), 0.0);
+    }
+
+    #[test]
+    fn beyond_measured_pairs_exposures_follow_the_curve_through_the_nearest_two() {
+        let measured = |exposures: &[[f64; 2]]| Resin {
+            exposures: exposures.to_vec(),
+            ..Resin::default()
+        };
+        let two = measured(&[[0.05, 2.4], [0.1, 3.5]]);
+        assert_eq!(two.measured_mm(), Some([0.05, 0.1]));
+        // Dp is 0.05 / ln(3.5 / 2.4) = 0.1325 mm.
+        for (thickness_mm, exposure_s) in [
+            (0.15, 5.104),
+            (0.2, 7.444),
+            (0.1, 3.5),
+            (0.075, 2.95),
+            (0.05, 2.4),
+            (0.025, 1.987),
+        ] {
+            assert_eq!(two.exposure_s(thickness_mm), exposure_s, "{thickness_mm}");
+        }
+        // Of several pairs the last two count above, and the first two below.
+        let three = measured(&[[0.05, 2.4], [0.1, 3.5], [0.15, 7.0]]);
+        assert_eq!(three.exposure_s(0.2), 14.0);
+        assert_eq!(three.exposure_s(0.025), 1.987);
+        // Jacobs' curve itself is found again.
+        let planted = Resin::default();
+        let pairs = [0.05, 0.12].map(|h| [h, 3.0 * ((h - 0.05) / 0.15_f64).exp()]);
+        for thickness_mm in [0.01, 0.03, 0.15, 0.3] {
+            let (found, expected) = (measured(&pairs), planted.exposure_s(thickness_mm));
+            assert_eq!(found.exposure_s(thickness_mm), expected, "{thickness_mm}");
+        }
+        // One pair holds everywhere; exposures that fall, or are 0, fit no curve.
+        let one = measured(&[[0.1, 3.5]]);
+        assert_eq!([0.05, 0.1, 0.2].map(|h| one.exposure_s(h)), [3.5; 3]);
+        assert_eq!(one.measured_mm(), None);
+        let falling = measured(&[[0.05, 3.0], [0.1, 2.0]]);
+        assert_eq!([0.02, 0.2].map(|h| falling.exposure_s(h)), [3.0, 2.0]);
+        let dark = measured(&[[0.05, 0.0], [0.1, 2.0]]);
+        assert_eq!([0.02, 0.2].map(|h| dark.exposure_s(h)), [0.0, 2.0]);
     }
 
     #[test]

@@ -195,6 +195,15 @@ pub enum Warning {
         /// The best uniform layers within tolerance, if any are.
         best: Option<UniformLayers>,
     },
+    /// Layers are thinner or thicker than those whose exposures are measured, so theirs follow the curve through the nearest two.
+    ExtrapolatedExposures {
+        /// Number of such layers.
+        layers: usize,
+        /// The thinnest layer whose exposure is measured, in millimetres.
+        thinnest_mm: f64,
+        /// The thickest one.
+        thickest_mm: f64,
+    },
     /// It is not known if the printer prints layers of several thicknesses.
     UntriedThicknesses {
         /// Make and model of the printer.
@@ -351,6 +360,44 @@ impl Warning {
             _ => Ok(()),
         }
     }
+
+    /// The sentences about printers and slicers.
+    fn of_printing(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        match self {
+            Self::OneThickness { taker, best } => {
+                write!(
+                    f,
+                    "{taker} takes one thickness for all layers, and this plan has several"
+                )?;
+                match best {
+                    Some(best) => write!(f, "; {best} keep the tolerance"),
+                    None => f.write_str("; choose the uniform planner"),
+                }
+            }
+            Self::ExtrapolatedExposures {
+                layers,
+                thinnest_mm,
+                thickest_mm,
+            } => write!(
+                f,
+                "the exposure of {} is extrapolated, since exposures are measured from {thinnest_mm} to {thickest_mm} mm alone; \
+                 measure theirs, or keep the minimum and maximum layer thickness within that range",
+                counted(*layers, "layer"),
+            ),
+            Self::UntriedThicknesses { model } => write!(
+                f,
+                "it is not confirmed that the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
+                 makes and measure it, or choose the uniform planner"
+            ),
+            Self::UntriedSlicer { slicers } => write!(
+                f,
+                "it is not confirmed that {} prints the layers of such a file as planned; compare the number and the heights of the \
+                 layers in its preview before you print",
+                slicers.join(" or ")
+            ),
+            _ => Ok(()),
+        }
+    }
 }
 
 impl std::fmt::Display for Warning {
@@ -414,27 +461,10 @@ impl std::fmt::Display for Warning {
                 f,
                 "the print ends at {top_mm} mm, since layers do not add up to {height_mm} mm"
             ),
-            Self::OneThickness { taker, best } => {
-                write!(
-                    f,
-                    "{taker} takes one thickness for all layers, and this plan has several"
-                )?;
-                match best {
-                    Some(best) => write!(f, "; {best} keep the tolerance"),
-                    None => f.write_str("; choose the uniform planner"),
-                }
-            }
-            Self::UntriedThicknesses { model } => write!(
-                f,
-                "it is not confirmed that the {model} prints layers of several thicknesses; print what `cusp calibrate layers` \
-                 makes and measure it, or choose the uniform planner"
-            ),
-            Self::UntriedSlicer { slicers } => write!(
-                f,
-                "it is not confirmed that {} prints the layers of such a file as planned; compare the number and the heights of the \
-                 layers in its preview before you print",
-                slicers.join(" or ")
-            ),
+            Self::OneThickness { .. }
+            | Self::ExtrapolatedExposures { .. }
+            | Self::UntriedThicknesses { .. }
+            | Self::UntriedSlicer { .. } => self.of_printing(f),
             Self::GpuTooSmall {
                 needed_bytes,
                 limit_bytes,

@@ -7,6 +7,7 @@ use cusp_slicer::format::{Format, FormatThicknesses};
 use cusp_slicer::job::{Backend, Options, Report};
 use cusp_slicer::printer::{PRINTERS, VariableLayers, named};
 use cusp_slicer::resin::Resin;
+use cusp_slicer::warning::Warning;
 
 #[test]
 fn exposures_follow_the_curve_or_the_table() {
@@ -25,7 +26,11 @@ fn exposures_follow_the_curve_or_the_table() {
     };
     let exposures =
         [0.02, 0.05, 0.075, 0.1, 0.2].map(|thickness_mm| measured.exposure_s(thickness_mm));
-    assert_eq!(exposures, [2.0, 2.0, 2.5, 3.0, 3.0]);
+    // Beyond the pairs, the curve through both: a factor of 1.5 in 0.05 mm.
+    let beyond = [2.0 * 1.5_f64.powf(-0.6), 3.0 * 1.5_f64.powi(2)];
+    assert_near(exposures[0], beyond[0], 1e-3);
+    assert_eq!(exposures[1..4], [2.0, 2.5, 3.0]);
+    assert_near(exposures[4], beyond[1], 1e-3);
     assert_eq!(
         resin.exposures_s(&[0.05; 6]),
         [30.0, 30.0, 30.0, 30.0, 3.0, 3.0]
@@ -55,6 +60,49 @@ fn exposures_follow_the_curve_or_the_table() {
     ] {
         assert!(wrong.check().is_err(), "{wrong:?}");
     }
+}
+
+#[test]
+fn layers_beyond_measured_exposures_follow_the_curve_with_a_warning() {
+    let tower = solids::cuboid(glam::Vec3::new(3.0, 3.0, 12.0));
+    let mut slicer = Slicer::load(&binary_stl(&tower)).unwrap();
+    let mut plan = |exposures: &[[f64; 2]], layer_max_mm| {
+        let options = Options {
+            resin: Resin {
+                exposures: exposures.to_vec(),
+                ..Resin::default()
+            },
+            layer_max_mm,
+            format: Some(Format::Nanodlp),
+            rays: 50,
+            backend: Backend::Cpu,
+            ..Options::default()
+        };
+        let report = pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+        let warned = report.warnings.iter().find_map(|warning| match *warning {
+            Warning::ExtrapolatedExposures {
+                layers,
+                thinnest_mm,
+                thickest_mm,
+            } => Some((layers, [thinnest_mm, thickest_mm])),
+            _ => None,
+        });
+        let longest_s = report.exposure_s[4..].iter().copied().fold(0.0, f64::max);
+        let beyond = report.thickness_mm[4..]
+            .iter()
+            .filter(|&&it| it > 0.1 + 1e-6);
+        (longest_s, warned, beyond.count())
+    };
+    let measured = [[0.05, 2.4], [0.1, 3.5]];
+    let (longest_s, warned, beyond) = plan(&measured, None);
+    assert_eq!(longest_s, 5.104);
+    assert!(beyond > 60);
+    assert_eq!(warned, Some((beyond, [0.05, 0.1])));
+    // Limits keep a plan within what is measured.
+    assert_eq!(plan(&measured, Some(0.1)), (3.5, None, 0));
+    // A single pair holds for all thicknesses.
+    let (longest_s, warned, _) = plan(&measured[1..], None);
+    assert_eq!((longest_s, warned), (3.5, None));
 }
 
 #[test]

@@ -564,12 +564,14 @@ pub(super) fn report_of(
     }
     let thickness_mm = plan.thickness_mm();
     warnings.extend(thickness_warning(planned, output, &thickness_mm));
-    if let Some(Filament { slicer, .. }) = output.filament
-        && !slicer.is_tried()
-    {
-        warnings.push(Warning::UntriedSlicer {
-            slicers: slicer.names().to_vec(),
-        });
+    match output.filament {
+        Some(Filament { slicer, .. }) if !slicer.is_tried() => {
+            warnings.push(Warning::UntriedSlicer {
+                slicers: slicer.names().to_vec(),
+            });
+        }
+        Some(_) => {}
+        None => warnings.extend(exposure_warning(&layering.resin, &thickness_mm)),
     }
     Report {
         schema: SCHEMA,
@@ -643,6 +645,21 @@ fn thickness_warning(planned: &Planned, output: &Output, thickness_mm: &[f64]) -
     Some(Warning::OneThickness {
         taker,
         best: planned.best_uniform(),
+    })
+}
+
+/// The warning about layers whose exposure is beyond those that are measured.
+fn exposure_warning(resin: &Resin, thickness_mm: &[f64]) -> Option<Warning> {
+    /// Thicknesses are whole bins but for rounding.
+    const ROUNDING_MM: f64 = 1e-6;
+    let [thinnest_mm, thickest_mm] = resin.measured_mm()?;
+    let measured_mm = thinnest_mm - ROUNDING_MM..=thickest_mm + ROUNDING_MM;
+    let exposed = thickness_mm.iter().skip(resin.bottom_layers);
+    let layers = exposed.filter(|it| !measured_mm.contains(it)).count();
+    (layers > 0).then_some(Warning::ExtrapolatedExposures {
+        layers,
+        thinnest_mm,
+        thickest_mm,
     })
 }
 

@@ -372,6 +372,7 @@ fn warnings() -> Vec<Warning> {
             taker: "Anycubic Photon Mono M5s".to_owned(),
             best: Some(UniformLayers { layer_mm: 0.07, layers: 857 }),
         },
+        ExtrapolatedExposures { layers: 12, thinnest_mm: 0.05, thickest_mm: 0.1 },
         UntriedThicknesses { model: "Elegoo Saturn 3".to_owned() },
         UntriedSlicer { slicers: vec!["OrcaSlicer", "Bambu Studio"] },
         GpuTooSmall { needed_bytes: 345, limit_bytes: 234 },

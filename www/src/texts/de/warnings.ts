@@ -2,7 +2,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, counted, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, exact, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} ohne Fläche weggelassen.`,
   "inside-out": () => "Das Netz war von innen nach außen gekehrt und wurde umgedreht.",
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} falsch herum, wurden umgedreht.`,
@@ -49,6 +49,8 @@ export const warnings = ({ count, counted, mm, tick, height, volume, error, eith
     (best === null
       ? "wählen Sie gleichmäßige Schichten."
       : `${count(best.layers)} gleichmäßige Schichten von ${mm(best.layer_mm)} halten die Toleranz ein.`),
+  "extrapolated-exposures": ({ layers, thinnest_mm, thickest_mm }) =>
+    `Die Belichtung von ${counted(layers, LAYERS)} ist hochgerechnet, da Belichtungen nur von ${exact(thinnest_mm)} bis ${mm(thickest_mm)} gemessen sind; messen Sie auch diese, oder halten Sie kleinste und größte Schichtdicke in diesem Bereich.`,
   "untried-thicknesses": ({ model }) =>
     `Niemand hat berichtet, ob der ${model} verschieden dicke Schichten druckt; drucken Sie die Testtürme, oder wählen Sie gleichmäßige Schichten.`,
   "untried-slicer": ({ slicers }) =>

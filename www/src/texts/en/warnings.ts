@@ -3,7 +3,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, counted, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, exact, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} without area left out.`,
   "inside-out": () => "The mesh was inside out, and was turned over.",
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} facing the wrong way turned over.`,
@@ -47,6 +47,8 @@ export const warnings = ({ count, counted, mm, tick, height, volume, error, eith
   "one-thickness": ({ taker, best }) =>
     `${taker} takes one thickness for all layers, and this plan has several; ` +
     (best === null ? "choose the uniform planner." : `${count(best.layers)} uniform layers of ${mm(best.layer_mm)} keep the tolerance.`),
+  "extrapolated-exposures": ({ layers, thinnest_mm, thickest_mm }) =>
+    `The exposure of ${counted(layers, LAYERS)} is extrapolated, since exposures are measured from ${exact(thinnest_mm)} to ${mm(thickest_mm)} alone; measure theirs, or keep the minimum and maximum layer thickness within that range.`,
   "untried-thicknesses": ({ model }) =>
     `It is not confirmed that the ${model} prints layers of several thicknesses; print the test towers, or choose uniform layers.`,
   "untried-slicer": ({ slicers }) =>

@@ -2,7 +2,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, counted, plural, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, plural, exact, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sin área, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "La malla estaba del revés y se le dio la vuelta.",
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} del revés: se les dio la vuelta.`,
@@ -47,6 +47,8 @@ export const warnings = ({ count, counted, plural, mm, tick, height, volume, err
   "one-thickness": ({ taker, best }) =>
     `${taker} admite un solo espesor para todas las capas, y este plan tiene varios; ` +
     (best === null ? "elija capas uniformes." : `${count(best.layers)} capas uniformes de ${mm(best.layer_mm)} cumplen la tolerancia.`),
+  "extrapolated-exposures": ({ layers, thinnest_mm, thickest_mm }) =>
+    `La exposición de ${counted(layers, LAYERS)} está extrapolada, pues solo hay exposiciones medidas de ${exact(thinnest_mm)} a ${mm(thickest_mm)}; mida también esas, o mantenga el espesor de capa mínimo y máximo en ese intervalo.`,
   "untried-thicknesses": ({ model }) =>
     `Nadie ha dicho si la ${model} imprime capas de distinto espesor; imprima las torres de prueba o elija capas uniformes.`,
   "untried-slicer": ({ slicers }) =>

@@ -2,7 +2,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { BODIES, CAVITIES, EDGES, FACETS, FAULTS, HOLES, LAYERS, OBJECTS, OMITTED, PARTS, PART_KINDS, POINTS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, counted, plural, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, counted, plural, exact, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `${counted(facets, FACETS)} sans aire, ${plural(facets, OMITTED)}.`,
   "inside-out": () => "Le maillage était à l’envers et a été retourné.",
   "turned-facets": ({ facets }) => `${counted(facets, FACETS)} à l’envers : retournées.`,
@@ -47,6 +47,8 @@ export const warnings = ({ count, counted, plural, mm, tick, height, volume, err
   "one-thickness": ({ taker, best }) =>
     `${taker} n’admet qu’une épaisseur pour toutes les couches, et ce plan en a plusieurs ; ` +
     (best === null ? "choisissez des couches uniformes." : `${count(best.layers)} couches uniformes de ${mm(best.layer_mm)} respectent la tolérance.`),
+  "extrapolated-exposures": ({ layers, thinnest_mm, thickest_mm }) =>
+    `L’exposition de ${counted(layers, LAYERS)} est extrapolée, car les expositions ne sont mesurées que de ${exact(thinnest_mm)} à ${mm(thickest_mm)} ; mesurez aussi celles-ci, ou gardez les épaisseurs minimale et maximale des couches dans cet intervalle.`,
   "untried-thicknesses": ({ model }) =>
     `Personne n’a dit si l’imprimante ${model} imprime des couches d’épaisseurs différentes ; imprimez les tours de test, ou choisissez des couches uniformes.`,
   "untried-slicer": ({ slicers }) =>

@@ -2,7 +2,7 @@ import type { Format } from "../format.js";
 import type { WarningSentences } from "../sentences.js";
 import { FAULTS, PART_KINDS, UNITS } from "./nouns.js";
 
-export const warnings = ({ count, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
+export const warnings = ({ count, exact, mm, tick, height, volume, error, either }: Format): WarningSentences => ({
   "degenerate-facets": ({ facets }) => `已略去 ${count(facets)} 个没有面积的三角面。`,
   "inside-out": () => "网格内外颠倒，已翻转。",
   "turned-facets": ({ facets }) => `${count(facets)} 个面朝向错误，已翻转。`,
@@ -43,6 +43,8 @@ export const warnings = ({ count, mm, tick, height, volume, error, either }: For
   "one-thickness": ({ taker, best }) =>
     `${taker} 的所有层只能用一种厚度，而本方案有多种；` +
     (best === null ? "请使用均匀分层。" : `${count(best.layers)} 个 ${mm(best.layer_mm)} 的均匀层，误差在公差以内。`),
+  "extrapolated-exposures": ({ layers, thinnest_mm, thickest_mm }) =>
+    `${count(layers)} 层的曝光时间为外推值，因为只测量了 ${exact(thinnest_mm)} 至 ${mm(thickest_mm)} 层厚的曝光；请补测这些厚度，或将最小和最大层厚保持在该范围内。`,
   "untried-thicknesses": ({ model }) =>
     `尚无人验证 ${model} 能否打印不同厚度的层；请打印测试塔，或使用均匀分层。`,
   "untried-slicer": ({ slicers }) =>
