@@ -166,7 +166,8 @@ pub enum Source {
     /// Every facet: the tolerance holds on the mesh.
     #[default]
     Exact,
-    /// The hits of the LDI, as in section 3.2: what rays miss is not seen.
+    /// The hits of the LDI, as in section 3.2: what rays miss is not seen. Planes at sharp changes are those of every facet, as rays miss
+    /// upright walls.
     Sampled,
 }
 

@@ -176,6 +176,37 @@ fn flats_print_at_their_true_height() {
 }
 
 #[test]
+fn sharp_changes_beside_upright_walls_get_planes_from_either_source() {
+    // A block, a lying cylinder that is 16 mm high, and a block again, in one outline. Rays miss the walls of the blocks.
+    let arc = (0..=64u8).map(|step| {
+        let z = 10.0 + f32::from(step) / 4.0;
+        [(100.0 - (z - 18.0) * (z - 18.0)).sqrt(), z]
+    });
+    let right: Vec<[f32; 2]> = std::iter::once([6.0, 0.0])
+        .chain(arc)
+        .chain([[6.0, 36.0]])
+        .collect();
+    let left = right.iter().rev().map(|&[x, z]| [-x, z]);
+    let outline: Vec<[f32; 2]> = right.iter().copied().chain(left).collect();
+    let mut slicer = load(&solids::profiled(&outline, 12.0));
+    for source in [Source::Exact, Source::Sampled] {
+        let options = Options {
+            source,
+            ..options()
+        };
+        let report = plan(&mut slicer, &options).unwrap();
+        for z_mm in [10.0, 26.0] {
+            let mut snapped = report.snapped_mm.iter();
+            assert!(
+                snapped.any(|snapped_mm| (snapped_mm - z_mm).abs() < 0.003),
+                "{source:?}: {:?}",
+                report.snapped_mm
+            );
+        }
+    }
+}
+
+#[test]
 fn a_goal_is_met_with_the_least_tolerance() {
     let mut slicer = load(&solids::sphere(3.0, 5));
     let usual = plan(&mut slicer, &options()).unwrap();

@@ -78,7 +78,8 @@ impl<'a> Planning<'a> {
                     .iter()
                     .map(|part| Surface {
                         flats: &part.shapes.flats,
-                        steepest: &part.shapes.of(layering.source).steepest,
+                        // Rays miss upright walls, and with them where a slope begins.
+                        steepest: &part.shapes.of(Source::Exact).steepest,
                     })
                     .collect();
                 snap_planes(&surfaces, errors.bins(), area_mm2)
