@@ -22,6 +22,7 @@ mod mask;
 mod memory;
 mod mesh;
 mod orientation;
+mod overlap;
 mod plan;
 mod plate;
 mod prepare;

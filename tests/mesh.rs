@@ -1,6 +1,6 @@
 //! The mesh: volumes in closed form, and defects planted and found.
 
-use crate::common::{assert_near, load, on_plate, quiet, solids};
+use crate::common::{assert_near, load, on_plate, oracle, quiet, solids};
 use cusp_slicer::grid::Bins;
 use cusp_slicer::job::Options;
 use cusp_slicer::ldi::{RayImage, Survey};
@@ -233,17 +233,6 @@ fn whatever_is_missing_or_flipped_the_mesh_is_closed_in_the_end() {
     }
 }
 
-/// The generalised winding number, by sums of solid angles: an oracle of inside and outside.
-fn winding(triangles: impl Iterator<Item = [DVec3; 3]>, point: DVec3) -> f64 {
-    let angles = triangles.map(|corners| {
-        let [a, b, c] = corners.map(|corner| corner - point);
-        let [x, y, z] = [a, b, c].map(DVec3::length);
-        let rest = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
-        2.0 * a.dot(b.cross(c)).atan2(rest)
-    });
-    angles.sum::<f64>() / (4.0 * std::f64::consts::PI)
-}
-
 #[test]
 fn wide_bent_holes_are_closed_where_the_winding_number_is_one_half() {
     let saddle = |part: f32| {
@@ -272,8 +261,8 @@ fn wide_bent_holes_are_closed_where_the_winding_number_is_one_half() {
         for _ in 0..1000 {
             let part = DVec3::from_array(std::array::from_fn(|_| random.f64()));
             let point = bounds.min + bounds.size() * part;
-            let exact = winding(open(), point);
-            if (exact > 0.5) != (winding(closed(), point).round() != 0.0) {
+            let exact = oracle::winding(open(), point);
+            if (exact > 0.5) != (oracle::winding(closed(), point).round() != 0.0) {
                 differing += 1;
                 assert!((exact - 0.5).abs() < 0.1, "{name}: {exact}");
             }
@@ -300,14 +289,17 @@ fn on_request_all_holes_are_closed_where_the_winding_number_is_one_half() {
         })
         .collect();
     let open = || bowl.iter().map(|it| it.map(Vec3::as_dvec3));
-    let exact: Vec<bool> = points.iter().map(|&it| winding(open(), it) > 0.5).collect();
+    let exact: Vec<bool> = points
+        .iter()
+        .map(|&it| oracle::winding(open(), it) > 0.5)
+        .collect();
     let [fan, curved] = [false, true].map(|all_curved| {
         let mesh = Mesh::with_caps(&bowl, all_curved).unwrap();
         assert_eq!((mesh.holes, unbalanced_edges(&mesh)), (1, 0));
         let closed = || (0..mesh.facets.len()).map(|facet| mesh.corners(facet));
         let is_inside = points
             .iter()
-            .map(|&it| winding(closed(), it).round() != 0.0);
+            .map(|&it| oracle::winding(closed(), it).round() != 0.0);
         is_inside.zip(&exact).filter(|(a, b)| a != *b).count()
     });
     assert!(

@@ -134,25 +134,32 @@ fn is_one_solid(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
     })
 }
 
-/// Marks the facets that a ray meets, and those that separate inside from outside. Hits at the same height count
-/// together: where bodies touch, neither of the two facets is on the surface.
+/// Marks the facets that a ray meets, and those that separate inside from outside.
 fn look_along(hits: &[Hit], model_end: u32, seen: &[AtomicU8]) {
+    each_of_model(hits, model_end, |hit, is_inside| {
+        let note = if is_inside {
+            MET | INSIDE
+        } else {
+            MET | ON_SURFACE
+        };
+        let seen = &seen[hit.facet() as usize];
+        // Neighbouring rays meet the same facets: most notes are already made.
+        if seen.load(Relaxed) & note != note {
+            seen.fetch_or(note, Relaxed);
+        }
+    });
+}
+
+/// Calls `visit` with each hit of a ray with the model, and true if it is inside the solid. Hits at the same height count together:
+/// where bodies touch, neither of the two facets is on the surface.
+#[inline]
+pub(crate) fn each_of_model(hits: &[Hit], model_end: u32, mut visit: impl FnMut(&Hit, bool)) {
     let mut winding = 0;
     for group in hits.chunk_by(|a, b| a.z_mm == b.z_mm) {
         let was_inside = winding != 0;
         let of_model = || group.iter().filter(|hit| hit.facet() < model_end);
         winding += of_model().map(|hit| hit.winding()).sum::<i32>();
-        let note = if was_inside == (winding != 0) && was_inside {
-            MET | INSIDE
-        } else {
-            MET | ON_SURFACE
-        };
-        for hit in of_model() {
-            let seen = &seen[hit.facet() as usize];
-            // Neighbouring rays meet the same facets: most notes are already made.
-            if seen.load(Relaxed) & note != note {
-                seen.fetch_or(note, Relaxed);
-            }
-        }
+        let is_inside = was_inside && winding != 0;
+        of_model().for_each(|hit| visit(hit, is_inside));
     }
 }

@@ -26,7 +26,7 @@ pub fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
         .collect()
 }
 
-/// The pairs of `facets`, which ascend, and other facets of the surface that count, if they pass through each other. Each is there
+/// The pairs of `facets`, which ascend, and other facets of the model that count, if they pass through each other. Each is there
 /// once.
 ///
 /// Cost: linear in facets where they are of similar sizes.
@@ -35,13 +35,12 @@ pub fn pairs(mesh: &Mesh, facets: &[u32], counts: impl Fn(u32) -> bool) -> Vec<[
         return Vec::new();
     }
     let cells = Cells::new(mesh);
-    let end = mesh.surface_facets as u32;
     let (mut seen, mut pairs) = (Vec::new(), Vec::new());
     for &facet in facets {
         cells.near(mesh, facet, &mut seen);
         // A pair of which both are listed belongs to the first.
         let is_new = |other: &u32| *other > facet || facets.binary_search(other).is_err();
-        seen.retain(|other| *other < end && is_new(other) && counts(*other));
+        seen.retain(|other| is_new(other) && counts(*other));
         seen.sort_unstable();
         seen.dedup();
         let crossing = seen.iter().filter(|&&other| cross(mesh, facet, other));

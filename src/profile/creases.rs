@@ -8,11 +8,20 @@ use super::normal_cones::Cone;
 use crate::grid::Bins;
 use crate::model::Mesh;
 
-/// The cones of the creases between `pairs` of facets that pass through each other: at a crease towards which both facets fall or rise
-/// `n_z²` is 1 − `e_z²`, with e the unit vector along it; where a crease has its highest or lowest point it is 1. Each has a cone for
-/// both facets.
-pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Vec<Cone> {
-    let mut cones = Vec::new();
+/// The creases between facets that pass through each other.
+pub(super) struct Creases {
+    /// The cones of those between facets of the surface: at a crease towards which both facets fall or rise `n_z²` is 1 − `e_z²`, with e
+    /// the unit vector along it; where a crease has its highest or lowest point it is 1. Each has a cone for both facets.
+    pub cones: Vec<Cone>,
+    /// The bins that creases meet on each facet of the surface, and those beside them: rays meet facets that are moved sideways by up to
+    /// 1/512 pixel.
+    pub spans: Vec<(u32, [u32; 2])>,
+}
+
+/// The creases between `pairs` of facets that pass through each other.
+pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Creases {
+    let (mut cones, mut spans) = (Vec::new(), Vec::new());
+    let is_surface = |facet: u32| (facet as usize) < mesh.surface_facets;
     let mut add = |facets: [u32; 2], heights: [f64; 2], n_z_squared: f64| {
         let [a, b] = heights.map(|z| bins.of(z) as u32);
         cones.extend(facets.map(|facet| Cone {
@@ -25,7 +34,17 @@ pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Vec<Cone> 
     let mut ends: FxHashMap<Place, ([u32; 2], [f64; 2])> = FxHashMap::default();
     let mut order = Vec::new();
     for &facets in pairs {
-        let Some(crease) = Crease::between(mesh, facets) else {
+        let crease = Crease::between(mesh, facets);
+        let ends_mm = match &crease {
+            Some(crease) => crease.ends.map(|end| end.z),
+            // It is somewhere on both.
+            None => common_heights(mesh, facets),
+        };
+        let [a, b] = ends_mm.map(|z| bins.of(z) as u32);
+        let span = [a.min(b).saturating_sub(1), a.max(b) + 1];
+        let on_surface = facets.into_iter().filter(|&facet| is_surface(facet));
+        spans.extend(on_surface.map(|facet| (facet, span)));
+        let Some(crease) = crease.filter(|_| facets.into_iter().all(is_surface)) else {
             continue;
         };
         let [from, to] = crease.ends;
@@ -51,7 +70,16 @@ pub(super) fn creases(mesh: &Mesh, bins: Bins, pairs: &[[u32; 2]]) -> Vec<Cone> 
             add(facets, [z; 2], 1.0);
         }
     }
-    cones
+    Creases { cones, spans }
+}
+
+/// The lowest and the highest height that both facets have.
+fn common_heights(mesh: &Mesh, facets: [u32; 2]) -> [f64; 2] {
+    let [one, other] = facets.map(|facet| {
+        let [a, b, c] = mesh.corners(facet as usize).map(|corner| corner.z);
+        [a.min(b).min(c), a.max(b).max(c)]
+    });
+    [one[0].max(other[0]), one[1].min(other[1])]
 }
 
 /// End of a crease: the edge, by its vertices in ascending order, that passes through a facet.

@@ -6,6 +6,7 @@ pub mod cusp;
 pub mod deviation;
 pub mod facet_bins;
 pub mod filament_roundness;
+mod hidden;
 pub mod largest;
 pub mod normal_cones;
 pub mod roughness;

@@ -2,6 +2,7 @@
 
 use super::creases::creases;
 use super::facet_bins::{FacetBins, Flat};
+use super::hidden::Hidden;
 use super::normal_cones::{self, Cone, cones};
 use super::weighted::Weighted;
 use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
@@ -18,10 +19,10 @@ pub(crate) struct Shapes {
     pub sampled: Shape,
     /// Horizontal facets that are not hidden.
     pub flats: Vec<Flat>,
-    /// The normal cones of the surface, hidden ones included; empty if no metric needs them.
+    /// The normal cones of the surface, those of hidden facets included; empty if no metric needs them.
     cones: Vec<Cone>,
-    /// For each facet, true if it lies wholly inside the solid; may be empty.
-    hidden: Vec<bool>,
+    /// What lies inside the solid.
+    hidden: Hidden,
     /// True if bodies overlap in a way that only rays can resolve.
     pub overlaps: bool,
     weighing: Option<Weighing>,
@@ -55,17 +56,31 @@ impl Shapes {
             overlaps,
         } = visibility(mesh, image, survey, &mut first)?;
         let bins = facet_bins.bins;
-        let exact = steepest::exact(facet_bins, &hidden);
-        let mut second = |fraction| progress(0.5 + 0.5 * fraction);
-        let sampled = steepest::sampled(facet_bins, image, &hidden, &mut second)?;
-        let is_seen = |facet: usize| hidden.get(facet) != Some(&true);
+        let hidden = Hidden::whole(hidden);
+        let is_seen = |facet: u32| hidden.is_seen(facet as usize);
+        let pairs = crossing::pairs(mesh, &partly_inside, is_seen);
+        let creases = creases(mesh, bins, &pairs);
+        let mut second = |fraction| progress(0.5 + 0.25 * fraction);
+        let spans = creases.spans;
+        let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, image, &mut second)?;
+        let value = |facet| facet_bins.n_z_squared[facet];
+        let exact = steepest::exact_maxima(facet_bins, &hidden, value);
+        let mut third = |fraction| progress(0.75 + 0.25 * fraction);
+        let sampled = steepest::sampled_maxima(facet_bins, image, &hidden, value, &mut third)?;
         let mut cones = cones(mesh, bins);
-        let pairs = crossing::pairs(mesh, &partly_inside, |facet| is_seen(facet as usize));
-        cones.extend(creases(mesh, bins, &pairs));
+        if !hidden.is_by_facets() {
+            let seen = |cone: &Cone| {
+                let cone = *cone;
+                let spans = hidden.seen_in(cone.facet as usize, cone.span);
+                spans.map(move |span| Cone { span, ..cone })
+            };
+            cones = cones.iter().flat_map(seen).collect();
+        }
+        cones.extend(creases.cones);
         Ok(Self {
             exact: Shape {
                 bins,
-                cones: normal_cones::maxima(&exact, &cones, is_seen),
+                cones: normal_cones::maxima(&exact, &cones, |facet| hidden.is_seen(facet)),
                 steepest: exact,
                 areas_mm2: Vec::new(),
             },
@@ -77,7 +92,7 @@ impl Shapes {
                 areas_mm2: Vec::new(),
             },
             cones,
-            flats: facet_bins.flats_but(&hidden),
+            flats: facet_bins.flats_but(hidden.facets()),
             hidden,
             overlaps,
             weighing: None,
@@ -99,7 +114,7 @@ impl Shapes {
             exact,
             cones,
             flats: facet_bins.flats.clone(),
-            hidden: Vec::new(),
+            hidden: Hidden::default(),
             overlaps: false,
             weighing: None,
         }
@@ -214,7 +229,7 @@ impl Shapes {
         self.exact.areas_mm2 = if self.overlaps {
             self.sampled.areas_mm2.clone()
         } else {
-            section::exact(mesh, &self.hidden, bins)
+            section::exact(mesh, self.hidden.facets(), bins)
         };
         Ok(self)
     }

@@ -4,6 +4,7 @@
 //! Squares avoid a square root per facet and are no less exact.
 
 use super::facet_bins::FacetBins;
+use super::hidden::Hidden;
 use crate::ldi::{RayImage, Rays};
 use crate::progress::{Cancelled, Progress};
 
@@ -26,33 +27,39 @@ pub fn sampled(
     progress: &mut Progress<'_>,
 ) -> Result<Vec<f32>, Cancelled> {
     let value = |facet| facet_bins.n_z_squared[facet];
-    sampled_maxima(facet_bins, image, hidden, value, progress)
+    let hidden = Hidden::whole(hidden.to_vec());
+    sampled_maxima(facet_bins, image, &hidden, value, progress)
 }
 
-/// [`sampled`] for any value of facets that is not negative.
+/// [`sampled`] for any value of facets that is not negative, which may be hidden in part.
 pub(super) fn sampled_maxima(
     facet_bins: &FacetBins,
     image: RayImage<'_>,
-    hidden: &[bool],
+    hidden: &Hidden,
     value: impl Fn(usize) -> f32,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<f32>, Cancelled> {
     let bins = facet_bins.bins;
     let values: Vec<f32> = (0..facet_bins.spans.len())
         .map(|facet| {
-            if hidden.get(facet) == Some(&true) {
-                NO_SURFACE
-            } else {
+            if hidden.is_seen(facet) {
                 value(facet)
+            } else {
+                NO_SURFACE
             }
         })
         .collect();
     let none = || vec![NO_SURFACE; bins.count];
+    let is_by_facets = hidden.is_by_facets();
     let add = |maxima: &mut Vec<f32>, rays: Rays<'_>| {
         for hit in rays.hits {
+            let facet = hit.facet() as usize;
             // The facets after these only close the surface.
-            if let Some(&value) = values.get(hit.facet() as usize) {
-                raise(&mut maxima[bins.of(f64::from(hit.z_mm))], value);
+            if let Some(&value) = values.get(facet) {
+                let bin = bins.of(f64::from(hit.z_mm));
+                if is_by_facets || !hidden.hides_part(facet, bin as u32) {
+                    raise(&mut maxima[bin], value);
+                }
             }
         }
     };
@@ -71,21 +78,29 @@ pub(super) fn sampled_maxima(
 ///
 /// Cost: linear in facets and bins, times the logarithm of the bins that the longest facet spans.
 pub fn exact(facet_bins: &FacetBins, hidden: &[bool]) -> Vec<f32> {
-    exact_maxima(facet_bins, hidden, |facet| facet_bins.n_z_squared[facet])
+    let hidden = Hidden::whole(hidden.to_vec());
+    exact_maxima(facet_bins, &hidden, |facet| facet_bins.n_z_squared[facet])
 }
 
-/// [`exact`] for any value of facets that is not negative.
+/// [`exact`] for any value of facets that is not negative, which may be hidden in part.
 pub(super) fn exact_maxima(
     facet_bins: &FacetBins,
-    hidden: &[bool],
+    hidden: &Hidden,
     value: impl Fn(usize) -> f32,
 ) -> Vec<f32> {
     let spans = facet_bins.spans.iter();
     let longest = spans.clone().map(|[lowest, highest]| highest - lowest + 1);
     let mut maxima = RangeMaxima::new(facet_bins.bins.count, longest.max().unwrap_or(1));
-    for (facet, &[lowest, highest]) in spans.enumerate() {
-        if hidden.get(facet) != Some(&true) {
-            maxima.raise(lowest, highest, value(facet));
+    let is_by_facets = hidden.is_by_facets();
+    for (facet, &span) in spans.enumerate() {
+        if !hidden.is_seen(facet) {
+            continue;
+        }
+        let mut raise = |[lowest, highest]: [u32; 2]| maxima.raise(lowest, highest, value(facet));
+        if is_by_facets {
+            raise(span);
+        } else {
+            hidden.seen_in(facet, span).for_each(raise);
         }
     }
     maxima.into_values()

@@ -5,6 +5,7 @@ use std::convert::Infallible;
 
 use super::deviation::{DeviationError, weight_levels};
 use super::facet_bins::FacetBins;
+use super::hidden::Hidden;
 use super::normal_cones::{self, Cone};
 use super::steepest::{self, NO_SURFACE};
 use super::volume::VolumeError;
@@ -38,14 +39,14 @@ fn value_of(facet_bins: &FacetBins, metric: Metric, weights: &[f32]) -> impl Fn(
 impl Weighted {
     /// Takes maxima over all facets whose height range meets a bin. `weights` has one value per facet of the surface, `cones` are
     /// those of the same facets.
-    pub fn exact(
+    pub(super) fn exact(
         facet_bins: &FacetBins,
         cones: &[Cone],
-        hidden: &[bool],
+        hidden: &Hidden,
         metric: Metric,
         weights: &[f32],
     ) -> Self {
-        let counts = |facet: usize| hidden.get(facet) != Some(&true);
+        let counts = |facet: usize| hidden.is_seen(facet);
         let maxima = |value: &dyn Fn(usize) -> f32| {
             Ok::<_, Infallible>(steepest::exact_maxima(facet_bins, hidden, value))
         };
@@ -57,10 +58,10 @@ impl Weighted {
     ///
     /// # Errors
     /// [`Cancelled`].
-    pub fn sampled(
+    pub(super) fn sampled(
         facet_bins: &FacetBins,
         image: RayImage<'_>,
-        hidden: &[bool],
+        hidden: &Hidden,
         metric: Metric,
         weights: &[f32],
         progress: &mut Progress<'_>,

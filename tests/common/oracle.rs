@@ -2,6 +2,7 @@
 
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::model::Mesh;
+use glam::DVec3;
 
 /// The hits of a ray, found by intersecting it with every facet in double precision.
 pub struct NaiveRay {
@@ -179,4 +180,15 @@ pub fn section_mm2(mesh: &Mesh, z_mm: f64) -> f64 {
         }
     }
     twice.abs() / 2.0
+}
+
+/// The generalised winding number, by sums of solid angles: an oracle of inside and outside.
+pub fn winding(triangles: impl Iterator<Item = [DVec3; 3]>, point: DVec3) -> f64 {
+    let angles = triangles.map(|corners| {
+        let [a, b, c] = corners.map(|corner| corner - point);
+        let [x, y, z] = [a, b, c].map(DVec3::length);
+        let rest = x * y * z + a.dot(b) * z + b.dot(c) * x + c.dot(a) * y;
+        2.0 * a.dot(b.cross(c)).atan2(rest)
+    });
+    angles.sum::<f64>() / (4.0 * std::f64::consts::PI)
 }
