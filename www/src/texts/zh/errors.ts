@@ -81,12 +81,12 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
     `打印件的膨胀量必须在 ${exact(least_mm)} 到 ${mm(most_mm)} 之间，而不是 ${mm(value_mm)}。`,
   "bad-options": ({ system }) => `无法读取选项：${ended(system)}`,
   "unknown-printer": ({ printer, similar, known }) =>
-    `已知的 ${count(known)} 种打印机中没有 ${printer}${similar.length === 0 ? "" : `；相近的有 ${similar.join(", ")}`}。`,
+    `已知的 ${count(known)} 种打印机中没有 ${printer}${similar.length === 0 ? "" : `；相近的有 ${similar.join("、")}`}。`,
   "bad-printer": ({ printer, field }) => `打印机 ${printer} 的 ${field} 不能取此值；请更正其描述。`,
   "printer-not-json": ({ system }) => `此文件没有以 JSON 描述打印机：${ended(system)}`,
   "printer-too-long": ({ bytes, most_bytes }) => `打印机描述最多 ${count(most_bytes)} 字节，而此文件有 ${count(bytes)} 字节；请选择其他文件。`,
   "pixels-without-pitch": () => "像素与其 x、y 间距须一并给出；请两者都给，或给出 x、y 共用的一个间距。",
-  "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join(", ")}，没有 ${exact(antialias)}。`,
+  "bad-antialias": ({ antialias, known }) => `抗锯齿级别有 ${known.join("、")}，没有 ${exact(antialias)}。`,
   "bad-size": ({ option, value_mm, least_mm, most_mm }) => `${option} 必须在 ${mm(least_mm)} 到 ${mm(most_mm)} 之间，而不是 ${mm(value_mm)}。`,
   "bad-weight-min": ({ weight_min }) => `最小权重必须在 0 到 1 之间，而不是 ${exact(weight_min)}。`,
   "bad-directions": ({ directions, most }) => `一次搜索可查看 1 到 ${count(most)} 个方向，而不是 ${count(directions)} 个。`,
@@ -103,7 +103,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "printer-step": ({ model, printer_step_mm, step_mm }) =>
     `${model} 的步距为 ${mm(printer_step_mm)}，${mm(step_mm)} 不是其整数倍；请使用 ${mm(printer_step_mm)} 的倍数。`,
   "resin-printer": ({ format, model }) => `${format} 文件用于丝材打印机，而 ${model} 打印树脂；请去掉打印机，或选择它能读取的格式。`,
-  "nozzle-without-filament": ({ formats }) => `喷嘴只用于丝材打印机的格式：${formats.join(", ")}；请选择其中之一，或去掉喷嘴。`,
+  "nozzle-without-filament": ({ formats }) => `喷嘴只用于丝材打印机的格式：${formats.join("、")}；请选择其中之一，或去掉喷嘴。`,
   "bad-nozzle": ({ nozzle_mm, least_mm, most_mm }) => `喷嘴直径必须为 ${exact(least_mm)} 到 ${mm(most_mm)}，而不是 ${mm(nozzle_mm)}。`,
   "nozzle-layers": ({ slicers, nozzle_mm, nozzle_min_mm, nozzle_max_mm, layer_min_mm, layer_max_mm }) =>
     `用 ${mm(nozzle_mm)} 的喷嘴，${either(slicers)} 可打印 ${exact(nozzle_min_mm)} 到 ${mm(nozzle_max_mm)} 的层，` +
@@ -182,7 +182,7 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "gpu-failed": ({ fault, system }) => `GPU 出错：${FAULTS[fault]}${system === null ? "" : `（${system}）`}。`,
   "all-black": () => "所有掩膜都是黑的：模型没有包围层中间所遇的任何部分；请检查模型，或选择更薄的层。",
   "uniform-only": ({ format, others, best }) =>
-    `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择 ${others.join(", ")}，或${inPlace(best, { count, mm })}。`,
+    `${format} 文件的所有层只有一种厚度，而本方案有多种；请选择 ${others.join("、")}，或${inPlace(best, { count, mm })}。`,
   "printer-uniform-only": ({ model, best }) => `${model} 的所有层只能用一种厚度，而本方案有多种；请${inPlace(best, { count, mm })}。`,
   "weights-not-weights": () => "这不是权重文件：开头不是 CUSPWT01，或文件不完整。",
   "weights-other-mesh": ({ weights_facets, mesh_facets }) =>
@@ -191,14 +191,14 @@ export const errors = ({ count, exact, mm, measure, error, either }: Format): Er
   "price-out-of-bounds": ({ field, value, least, most }) =>
     `${field} 为 ${exact(value)}，但必须在 ${exact(least)} 到 ${exact(most)} 之间；请更正价格或订单。`,
   "bad-prices": ({ field }) => `价格不能有这样的 ${field}；货币是 ISO 4217 的三个大写字母，数量折扣须递增，每种后处理须有各自的名称。`,
-  "no-finish": ({ finish, known }) => `没有后处理 ${finish}；${known.length > 0 ? `已知的有 ${known.join(", ")}` : "价格表中没有任何后处理"}。`,
+  "no-finish": ({ finish, known }) => `没有后处理 ${finish}；${known.length > 0 ? `已知的有 ${known.join("、")}` : "价格表中没有任何后处理"}。`,
   "no-masks": ({ format }) => `${format} 文件包含模型及其分层，不含掩膜；请直接把模型切片为此格式，或选择其他格式。`,
   "other-first-layer": ({ layer_mm, first_layer_mm }) =>
     `本方案的第一层厚 ${mm(layer_mm)}，而不是所设的 ${mm(first_layer_mm)}；模型比它低，请选择更薄的第一层。`,
   "archive-write": ({ system }) => `无法写入打印文件：${ended(system)}`,
   cancelled: () => "已取消。",
   "bad-attribute": ({ attribute, value, known }) =>
-    `属性 ${attribute} 不能是 ${String(value)}${known === undefined ? "" : `；已知的有 ${known.join(", ")}`}。`,
+    `属性 ${attribute} 不能是 ${String(value)}${known === undefined ? "" : `；已知的有 ${known.join("、")}`}。`,
   "part-failed": ({ part, system }) => `页面的一部分无法加载：${part}（${system}）。`,
   "no-browser": () => "这里没有浏览器；请在页面中调用。",
   "no-model": () => "还没有模型；请先打开一个。",
