@@ -2,10 +2,14 @@
 
 import type { Metric, Unit } from "../api/wire.js";
 
-/** The language's units for hours and minutes after a number. */
+/** Words of the formats: the units for hours and minutes after a number, and the separator of enumerations. */
+export const FORMAT_WORDS = { hours: "h", minutes: "min", separator: ", " } as const;
+
+/** Words of a language's formats. */
 export interface TimeUnits {
   hours: string;
   minutes: string;
+  separator?: string;
 }
 
 export type Format = ReturnType<typeof formatOf>;
@@ -13,7 +17,7 @@ export type Format = ReturnType<typeof formatOf>;
 /** Word forms by plural category of the language; `other` for categories without one. */
 export type Forms = Partial<Record<Intl.LDMLPluralRule, string>> & { other: string };
 
-export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
+export function formatOf(locale: string, { hours, minutes, separator = FORMAT_WORDS.separator }: TimeUnits) {
   const formatters = new Map<string, Intl.NumberFormat>();
   const rules = new Intl.PluralRules(locale);
 
@@ -94,6 +98,8 @@ export function formatOf(locale: string, { hours, minutes }: TimeUnits) {
       if (ms < 995) return `${number(ms, { maximumFractionDigits: 0 })}\u00a0ms`;
       return `${number(ms / 1000, { minimumFractionDigits: 1, maximumFractionDigits: 1 })}\u00a0s`;
     },
+    /** An enumeration: `0.05, 0.1`. */
+    list: (items: readonly string[]): string => items.join(separator),
     /** A list of all items: `a.stl and b.stl`. */
     all: (items: readonly string[]): string => new Intl.ListFormat(locale, { type: "conjunction" }).format(items),
     /** A list of alternatives: `.ctb or .goo`. */
