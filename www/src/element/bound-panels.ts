@@ -184,11 +184,11 @@ export function announcement({ session, language }: Facts): TemplateResult {
 
 function announced({ busy, result, notice, earlier }: Session, language: Facts["language"]): string {
   const { texts, format } = language;
-  if (busy !== null) return busy.task === "open" ? texts.open.opening(shown(busy.name)) : texts.progress[busy.stage];
+  if (busy !== null) return busy.task === "open" ? texts.open.opening({ name: shown(busy.name) }) : texts.progress[busy.stage];
   if (notice !== null) return texts.notices[notice];
   if (result === null || earlier) return "";
   const { layers, print_time_s, print_file } = result.report;
-  const planned = isFilament(print_file.format) ? `${format.count(layers)} ${texts.plan.layers(layers)}.` : texts.plan.said(layers, format.time(print_time_s));
+  const planned = isFilament(print_file.format) ? `${format.count(layers)} ${texts.plan.layers({ count: layers })}.` : texts.plan.said({ count: layers, time: format.time(print_time_s) });
   return `${planned} ${sentence(result, language)}`;
 }
 

@@ -5,7 +5,7 @@ import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGE_NAMES, LANGUAGES, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
 import { noticeBar, type Notice } from "./notice.js";
-import { pageWords } from "./texts/index.js";
+import { pageWords } from "./texts.js";
 import type { Visit } from "./visit.js";
 
 export interface PageActions {

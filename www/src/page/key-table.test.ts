@@ -3,7 +3,10 @@ import { watchGestures } from "../element/gestures.js";
 import { pressed, type Tool } from "../view/scene/keys.js";
 import { places } from "../view/scene/places.js";
 import { caps, KEY_TABLE, type Place } from "./key-table.js";
-import { words } from "./texts/visit/en.js";
+import { languageOf } from "../texts/index.js";
+import { visitWords } from "./visit-texts.js";
+
+const words = visitWords(languageOf("en"));
 
 afterEach(() => vi.unstubAllGlobals());
 

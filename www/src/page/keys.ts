@@ -8,7 +8,7 @@ import { languageOf, type Language } from "../texts/index.js";
 import { elementWith, given } from "../view/properties.js";
 import { caps, KEY_TABLE, type Place, type Row } from "./key-table.js";
 import { hasQuestionMark, setQuestionMark } from "./question-mark.js";
-import { visitWords, type VisitWords } from "./texts/visit/index.js";
+import { visitWords } from "./visit-texts.js";
 
 const PROPERTIES = {
   language: given<Language>(languageOf()),
@@ -183,7 +183,7 @@ function kept(event: KeyboardEvent): void {
 
 const isMac = (): boolean => /Mac|iP/.test(navigator.platform);
 
-function keyRow([does, keys, held]: Row, { does: sentences, names }: VisitWords["keys"]): TemplateResult {
+function keyRow([does, keys, held]: Row, { does: sentences, names }: ReturnType<typeof visitWords>["keys"]): TemplateResult {
   const cap = (key: string): TemplateResult => html`<kbd>${key}</kbd>`;
   const all = held === undefined ? keys : [held, ...keys];
   return html`<div>

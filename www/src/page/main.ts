@@ -1,7 +1,7 @@
 /** The page around the element: header, opening of files anywhere, the example, the URL, and offline use. */
 import "../workbench/register.js";
 import { render } from "lit";
-import { codeFor, fetchLanguage, languageOf } from "../texts/index.js";
+import { fetchLanguage, fetchRest, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { frame } from "./frame.js";
 import { idle } from "../api/calls.js";
@@ -13,8 +13,7 @@ import type { Notice } from "./notice.js";
 import { openAnywhere } from "./open-anywhere.js";
 import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
-import { fetchPageWords, pageWords } from "./texts/index.js";
-import { fetchWorkbenchWords } from "../workbench/texts/index.js";
+import { pageWords } from "./texts.js";
 import { Visit } from "./visit.js";
 
 function found<E extends Element>(selector: string): E {
@@ -32,11 +31,6 @@ let shown: readonly File[] | null = null;
 let notice: Notice | null = null;
 
 const locales = (): string[] => [own.get("locale"), ...navigator.languages].filter((locale) => locale !== null);
-
-async function fetchTexts(): Promise<void> {
-  const code = codeFor(...locales());
-  await Promise.all([fetchLanguage(...locales()), fetchPageWords(code), fetchWorkbenchWords(code)]);
-}
 
 function draw(): void {
   const language = languageOf(...locales());
@@ -63,7 +57,7 @@ async function open(files: readonly File[]): Promise<void> {
   // The slicer reports a file that cannot be read.
   if (await isModel(first).catch(() => true)) return load(files);
   try {
-    const { definePrint } = await import("../print/cusp-print.js");
+    const [{ definePrint }] = await Promise.all([import("../print/cusp-print.js"), fetchRest()]);
     definePrint();
   } catch {
     return unread(files);
@@ -94,8 +88,7 @@ function close(): void {
 
 async function speak(locale: string): Promise<void> {
   own.set("locale", locale);
-  await fetchTexts();
-  await visit.speak(languageOf(...locales()));
+  if ((await fetchLanguage(...locales())) === false) say({ says: "part" });
   draw();
   keep();
 }
@@ -131,7 +124,7 @@ let slicer: CuspWorkbench;
 
 /** A function, because a top-level await would split the page into many small files that wait for one another. */
 async function start(): Promise<void> {
-  await fetchTexts();
+  await fetchLanguage(...locales());
   draw();
   slicer = found("cusp-workbench");
   visit.start(settingsOf(asked));

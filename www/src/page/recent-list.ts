@@ -12,7 +12,7 @@ import { elementWith, given, own } from "../view/properties.js";
 import { icon } from "./icons.js";
 import { isKeeping, setKeeping } from "./keeping.js";
 import { MOST_BYTES, MOST_MODELS, PICTURE_PX, recentModels, watchRecent, type RecentModel, type RecentModels } from "./recent-models.js";
-import { visitWords } from "./texts/visit/index.js";
+import { visitWords } from "./visit-texts.js";
 import { visitStyles } from "./visit-styles.js";
 import { shown } from "../api/visible.js";
 
@@ -101,7 +101,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
     const change = (): void => void this.#try(() => this.#switch(models, !isOn));
     return html`<div>
       <label><input type="checkbox" aria-describedby="about" .checked=${live(isOn)} @change=${change} />${words.keep}</label>
-      <p class="about" id="about">${words.about(language.format.count(MOST_MODELS), size(MOST_BYTES, language))}</p>
+      <p class="about" id="about">${words.about({ models: language.format.count(MOST_MODELS), bytes: size(MOST_BYTES, language) })}</p>
     </div>`;
   }
 
@@ -115,7 +115,7 @@ export class CuspRecent extends elementWith(PROPERTIES) {
         <canvas width=${PICTURE_PX} height=${PICTURE_PX} data-id=${id}></canvas>
         <span>${name}<small class="figures">${size(bytes, this.language)} · ${date}</small></span>
       </button>
-      <button class="icon" aria-label=${words.delete(name)} title=${words.delete(name)} @click=${() => void this.#try(() => this.#delete(model, models))}>
+      <button class="icon" aria-label=${words.delete({ name })} title=${words.delete({ name })} @click=${() => void this.#try(() => this.#delete(model, models))}>
         ${icon("delete")}
       </button>
     </li>`;
@@ -133,14 +133,14 @@ export class CuspRecent extends elementWith(PROPERTIES) {
       this.dispatchEvent(new CustomEvent<File[]>("cusp-files", { detail: [file] }));
       return;
     }
-    this.said = visitWords(this.language).recent.gone(shown(model.name));
+    this.said = visitWords(this.language).recent.gone({ name: shown(model.name) });
     await models.delete(model);
   }
 
   async #delete(model: RecentModel, models: RecentModels): Promise<void> {
     const place = this.list.indexOf(model);
     await models.delete(model);
-    this.said = visitWords(this.language).recent.deleted(shown(model.name));
+    this.said = visitWords(this.language).recent.deleted({ name: shown(model.name) });
     await this.#read();
     await this.updateComplete;
     // The button has gone, and the focus with it: focus the next model, or the switch.

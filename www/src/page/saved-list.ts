@@ -14,7 +14,7 @@ import { icon } from "./icons.js";
 import { appliedTo, isNamed, LONGEST_NAME, savedIn, savedQuery, withoutSaved, withSaved, type SavedSettings } from "./saved-settings.js";
 import { FILE_NAME, settingsFile } from "./settings-file.js";
 import { readKept, writeKept } from "./storage.js";
-import { visitWords } from "./texts/visit/index.js";
+import { visitWords } from "./visit-texts.js";
 import { visitStyles } from "./visit-styles.js";
 
 /** The last message, and the list to restore if it can be undone. */
@@ -89,7 +89,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
     const save = (event: Event): void => {
       event.preventDefault();
       const name = typed.trim();
-      if (name === "" || !this.#write(withSaved(this.#fresh(), { name, query: savedQuery(this.query()) }), { text: words.saved(name) })) return;
+      if (name === "" || !this.#write(withSaved(this.#fresh(), { name, query: savedQuery(this.query()) }), { text: words.saved({ name }) })) return;
       this.typed = "";
     };
     return html`<div class="panel">
@@ -130,10 +130,10 @@ export class CuspSaved extends elementWith(PROPERTIES) {
       <button class="row" aria-current=${query === savedQuery(this.query())} @click=${() => this.#apply(query)}>
         ${icon("applied")}<span>${name}</span>
       </button>
-      <button class="icon" data-name=${name} aria-label=${words.rename(name)} title=${words.rename(name)} @click=${() => void this.#rename(name)}>
+      <button class="icon" data-name=${name} aria-label=${words.rename({ name })} title=${words.rename({ name })} @click=${() => void this.#rename(name)}>
         ${icon("rename")}
       </button>
-      <button class="icon" aria-label=${words.delete(name)} title=${words.delete(name)} @click=${() => void this.#delete(name)}>
+      <button class="icon" aria-label=${words.delete({ name })} title=${words.delete({ name })} @click=${() => void this.#delete(name)}>
         ${icon("delete")}
       </button>
     </li>`;
@@ -147,7 +147,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
       const name = to.trim();
       if (name === "") return;
       this.renamed = null;
-      this.#write(withSaved(withoutSaved(this.#fresh(), from), { name, query }), { text: words.saved(name) });
+      this.#write(withSaved(withoutSaved(this.#fresh(), from), { name, query }), { text: words.saved({ name }) });
       await this.#focus(`[data-name="${CSS.escape(name)}"]`);
     };
     const key = (event: KeyboardEvent): void => {
@@ -164,7 +164,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
         type="text"
         autocomplete="off"
         maxlength=${LONGEST_NAME}
-        aria-label=${words.rename(from)}
+        aria-label=${words.rename({ name: from })}
         .value=${live(to)}
         @input=${({ target }: Event) => (this.renamed = { from, to: (target as HTMLInputElement).value })}
       /><button class="small">${isTaken ? words.replace : words.save}</button>
@@ -188,7 +188,7 @@ export class CuspSaved extends elementWith(PROPERTIES) {
 
   async #delete(name: string): Promise<void> {
     const before = this.#fresh();
-    this.#write(withoutSaved(before, name), { text: visitWords(this.language).saved.deleted(name), before });
+    this.#write(withoutSaved(before, name), { text: visitWords(this.language).saved.deleted({ name }), before });
     // The button has gone, and the focus with it.
     await this.#focus("#undo");
   }

@@ -11,7 +11,7 @@ import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
 import { languageOf, type Language } from "../texts/index.js";
 import { elementWith, given, own } from "../view/properties.js";
-import { visitWords } from "./texts/visit/index.js";
+import { visitWords } from "./visit-texts.js";
 import { placeOf } from "./tour-place.js";
 
 export type Target = () => Element | null;
@@ -126,7 +126,7 @@ export class CuspTour extends elementWith(PROPERTIES) {
         <div aria-live="polite">
           <p class="title">
             <strong>${title}</strong>
-            <span class="quiet figures">${step < 0 ? nothing : words.place(count(step + 1), count(length))}</span>
+            <span class="quiet figures">${step < 0 ? nothing : words.place({ step: count(step + 1), steps: count(length) })}</span>
           </p>
           <p class="text">${text}</p>
         </div>

@@ -6,14 +6,14 @@ import { html, nothing, type TemplateResult } from "lit";
 import type { Model } from "../api/index.js";
 import { chosen } from "../element/parts/chosen.js";
 import type { SlicerElement } from "../element/slicer-element.js";
-import { languageOf, type Language } from "../texts/index.js";
+import { fetchRest, languageOf, type Language } from "../texts/index.js";
 import { closeFlyout, flyout } from "./flyout.js";
 import { canKeep, isKeeping } from "./keeping.js";
 import type { Notice } from "./notice.js";
 import { asksForKeys } from "./question-mark.js";
 import { remember } from "./remembered.js";
 import { readKept, writeKept } from "./storage.js";
-import { pageWords } from "./texts/index.js";
+import { pageWords } from "./texts.js";
 import type { Target } from "./tour.js";
 import "./visit.css";
 
@@ -90,16 +90,6 @@ export class Visit {
     if (this.#canKeep && isKeeping()) void this.#asked(() => this.#fetchRecent());
   }
 
-  /** Fetches the texts of the next language. */
-  speak(language: Language): Promise<void> {
-    return this.#asked(() => this.#fetchWords(language));
-  }
-
-  async #fetchWords(language: Language): Promise<void> {
-    const { fetchVisitWords } = await import("./texts/visit/index.js");
-    await fetchVisitWords(language);
-  }
-
   /** Runs requested work whose code is fetched. If that fails, reports it and closes the empty flyout. */
   async #asked(work: () => Promise<void>, flyout?: string): Promise<void> {
     try {
@@ -137,7 +127,7 @@ export class Visit {
   };
 
   async #fetchRecent(): Promise<void> {
-    await this.#fetchWords(this.#language);
+    await fetchRest();
     const [{ recentModels }] = await Promise.all([import("./recent-models.js"), import("./recent-list.js")]);
     if ((await recentModels()) !== null) return;
     this.#canKeep = false;
@@ -145,14 +135,14 @@ export class Visit {
   }
 
   async #fetchSaved(): Promise<void> {
-    await this.#fetchWords(this.#language);
+    await fetchRest();
     await import("./saved-list.js");
     // The current settings may have changed since the list was last open, and with them the marked entry.
     document.querySelector("cusp-saved")?.requestUpdate();
   }
 
   async #keys(): Promise<void> {
-    await this.#fetchWords(this.#language);
+    await fetchRest();
     await import("./keys.js");
     const list = document.querySelector("cusp-keys");
     if (list === null) return;
@@ -162,8 +152,7 @@ export class Visit {
 
   /** Shows the tour, unless it is already shown. */
   async #tour(): Promise<void> {
-    await this.#fetchWords(this.#language);
-    const { CuspTour } = await import("./tour.js");
+    const [{ CuspTour }] = await Promise.all([import("./tour.js"), fetchRest()]);
     if (document.querySelector("cusp-tour") !== null) return;
     const { targets, clearance, element } = this.#host;
     await element().updateComplete;

@@ -18,7 +18,7 @@ import { elementWith, given, own } from "../view/properties.js";
 import type { ViewTexts } from "../view/texts.js";
 import { factsOf } from "./facts.js";
 import { isCoded, openPrint, type Print, type ReadError } from "./open-print.js";
-import { textsOf } from "./texts/index.js";
+import { failureOf, findingOf, printTexts } from "./texts.js";
 import type { PrintFileError } from "./wire.js";
 import { shown } from "../api/visible.js";
 
@@ -155,7 +155,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
 
   override render(): TemplateResult {
     const { state, file } = this;
-    const { words, error } = textsOf(this.language);
+    const words = printTexts(this.language);
     return html`<section aria-label=${words.region} aria-busy=${state.is === "reading"}>
       <header>
         <h2 tabindex="-1">${shown(file?.name ?? "")}</h2>
@@ -170,12 +170,12 @@ export class CuspPrint extends elementWith(PROPERTIES) {
       ${state.is === "reading"
         ? html`<div class="card progress">
             <div>
-              <div class="line"><span class="words">${words.reading(shown(file?.name ?? ""))}</span></div>
-              <progress aria-label=${words.reading(shown(file?.name ?? ""))} max="1" .value=${state.done}></progress>
+              <div class="line"><span class="words">${words.reading({ name: shown(file?.name ?? "") })}</span></div>
+              <progress aria-label=${words.reading({ name: shown(file?.name ?? "") })} max="1" .value=${state.done}></progress>
             </div>
           </div>`
         : state.is === "failed"
-          ? html`<div class="card verdict bad" role="alert"><p>${error(state.error)}</p></div>`
+          ? html`<div class="card verdict bad" role="alert"><p>${failureOf(state.error, this.language)}</p></div>`
           : this.#cards(state)}
     </section>`;
   }
@@ -192,7 +192,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
 
   #cards({ print, report, limits }: State & { is: "open" }): TemplateResult {
     const { language, layer, mask } = this;
-    const { words } = textsOf(language);
+    const words = printTexts(language);
     const { inspection, preview } = print;
     const hasLayers = report.layers > 0;
     return html`<div class="cards">
@@ -237,27 +237,28 @@ export class CuspPrint extends elementWith(PROPERTIES) {
   }
 
   #verdict({ inspection }: Print): TemplateResult {
-    const { words, finding } = textsOf(this.language);
+    const words = printTexts(this.language);
     const { warnings } = inspection;
     if (warnings.length === 0) return html`<p class="verdict">${words.whole}</p>`;
     return html`<div class="verdict bad">
-      <strong>${words.warnings(warnings.length)}</strong>
+      <strong>${words.warnings({ count: warnings.length })}</strong>
       <ul>
-        ${warnings.map((warning) => html`<li>${finding(warning)}</li>`)}
+        ${warnings.map((warning) => html`<li>${findingOf(warning, this.language)}</li>`)}
       </ul>
     </div>`;
   }
 
   /** Exposure and lit pixels of the selected layer. */
   #layerWords({ inspection }: Print): string {
-    const { words } = textsOf(this.language);
+    const words = printTexts(this.language);
     const { format } = this.language;
     const values = inspection.layer_values[this.layer];
     if (values === undefined) return "";
     const exposure_s = values.exposure_s ?? inspection.exposure_s;
-    const exposed = exposure_s === null ? "" : words.exposed(format.measure(exposure_s, "s"));
-    const lit = values.lit_pixels === null ? words.damaged : words.pixelsLit(values.lit_pixels);
-    return words.layer(this.layer + 1, exposed, lit);
+    const layer = this.layer + 1;
+    const lit = values.lit_pixels === null ? words.damaged : words.pixelsLit({ pixels: values.lit_pixels });
+    if (exposure_s === null) return words.layer.bare({ layer, lit });
+    return words.layer.exposed({ layer, exposure: words.exposed({ exposure: format.measure(exposure_s, "s") }), lit });
   }
 
   async #read(file: File): Promise<void> {

@@ -9,7 +9,7 @@ test("a language is English until it is fetched, and nothing is fetched twice", 
   expect(once).toBe(twice);
   await once;
   expect(languageOf("de-AT")).toMatchObject({ code: "de", locale: "de-AT" });
-  expect(languageOf("de-AT").texts.plan.layers(2)).toBe("Schichten");
+  expect(languageOf("de-AT").texts.plan.layers({ count: 2 })).toBe("Schichten");
   expect(fetchLanguage("de")).toBeNull();
   expect(languageOf("fr").locale).toBe("en");
 });

@@ -5,19 +5,12 @@ import type { Metric, Unit } from "../api/wire.js";
 /** Words of the formats: the units for hours and minutes after a number, and the separator of enumerations. */
 export const FORMAT_WORDS = { hours: "h", minutes: "min", separator: ", " } as const;
 
-/** Words of a language's formats. */
-export interface TimeUnits {
-  hours: string;
-  minutes: string;
-  separator?: string;
-}
-
 export type Format = ReturnType<typeof formatOf>;
 
 /** Word forms by plural category of the language; `other` for categories without one. */
 export type Forms = Partial<Record<Intl.LDMLPluralRule, string>> & { other: string };
 
-export function formatOf(locale: string, { hours, minutes, separator = FORMAT_WORDS.separator }: TimeUnits) {
+export function formatOf(locale: string, { hours, minutes, separator }: Readonly<Record<keyof typeof FORMAT_WORDS, string>>) {
   const formatters = new Map<string, Intl.NumberFormat>();
   const rules = new Intl.PluralRules(locale);
 
@@ -32,8 +25,6 @@ export function formatOf(locale: string, { hours, minutes, separator = FORMAT_WO
   const count = (value: number): string => number(value, { maximumFractionDigits: 0 });
   /** The word form for a number: `layer`, `layers`. */
   const plural = (value: number, forms: Forms): string => forms[rules.select(value)] ?? forms.other;
-  /** A number with its noun: `1 layer`, `1,200 layers`. */
-  const counted = (value: number, forms: Forms): string => `${count(value)} ${plural(value, forms)}`;
   /** A height or a size without its unit, to 0.1 mm: `60.0`. */
   const size = (value: number): string => number(value, { minimumFractionDigits: 1, maximumFractionDigits: 1 });
   /** A number on an axis, or as typed. */
@@ -59,7 +50,6 @@ export function formatOf(locale: string, { hours, minutes, separator = FORMAT_WO
     decimal,
     count,
     plural,
-    counted,
     size,
     tick,
     exact,

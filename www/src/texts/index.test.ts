@@ -20,7 +20,7 @@ test("numbers as people read them", () => {
   expect(format.dimensions([60, 46.52, 59.4])).toBe("60.0 × 46.5 × 59.4\u00a0mm");
 });
 
-test("a language is the first with a catalogue, with the numbers of its country", () => {
+test("a language is the first with a dictionary, with the numbers of its country", () => {
   expect(languageOf("tlh", "de-CH").locale).toBe("de-CH");
   expect(languageOf("not a locale").locale).toBe("en");
   // Locales that browsers report if the system has none.
@@ -29,7 +29,7 @@ test("a language is the first with a catalogue, with the numbers of its country"
     expect(languageOf(locale, "fr").locale).toBe("fr");
   }
   expect(languageOf("de").format.size(1234.5)).toBe("1.234,5");
-  expect(languageOf("fr").texts.plan.layers(1)).toBe("couche");
-  expect(languageOf("fr").texts.plan.layers(2)).toBe("couches");
+  expect(languageOf("fr").texts.plan.layers({ count: 1 })).toBe("couche");
+  expect(languageOf("fr").texts.plan.layers({ count: 2 })).toBe("couches");
   expect(languageOf("zh").format.time(3600)).toBe("1\u00a0小时\u00a00\u00a0分钟");
 });

@@ -1,90 +1,115 @@
 /**
- * Languages of the element: one catalogue each, with the same keys as enforced by the compiler. English is built in; the others are fetched
- * on demand.
+ * Languages. English is in code, in the rooms that say it; every other language is a dictionary with the same keys, fetched on demand.
+ * English replaces what a dictionary lacks.
  */
-import * as en from "./en/index.js";
-import { formatOf, type Format } from "./format.js";
+import { FORMAT_WORDS, formatOf } from "./format.js";
+import { ENGLISH, room, type Bound, type Dictionary, type Spoken } from "./messages.js";
+import { model } from "./model.js";
+import { offers } from "./offers.js";
+import { orientation } from "./orientation.js";
+import { plan } from "./plan.js";
+import { plate } from "./plate.js";
+import { settings } from "./settings.js";
+import { view } from "./view.js";
+import { warningNouns, warnings } from "./warnings.js";
 
 export type { Format } from "./format.js";
 
-export type Texts = ReturnType<typeof en.en>;
+/** English of the element, except for what is fetched with its panel. */
+const ELEMENT = { format: FORMAT_WORDS, ...model, ...settings, ...plan, ...plate, ...view, ...orientation, offers, warnings, nouns: warningNouns } as const;
+
+const elementTexts = room("", ELEMENT);
+
+export type Texts = Bound<typeof ELEMENT>;
 
 /** A language in use: its texts and number formats. */
-export interface Language {
-  /** Language of the catalogue. */
-  code: LanguageCode;
-  /** BCP 47 tag, as requested if there is a catalogue for it: `de-AT` has German words and Austrian numbers. */
-  locale: string;
-  texts: Texts;
-  format: Format;
+export interface Language extends Spoken {
+  /** Language of the dictionary. */
+  readonly code: LanguageCode;
+  /** BCP 47 tag, as requested if there is a dictionary for it: `de-AT` has German words and Austrian numbers. */
+  readonly locale: string;
+  readonly texts: Texts;
 }
-
-interface Catalogue {
-  units: typeof en.units;
-  texts(format: Format): Texts;
-}
-
-const LOADERS = {
-  en: async (): Promise<Catalogue> => ENGLISH,
-  de: async (): Promise<Catalogue> => import("./de/index.js").then(({ units, de: texts }) => ({ units, texts })),
-  es: async (): Promise<Catalogue> => import("./es/index.js").then(({ units, es: texts }) => ({ units, texts })),
-  fr: async (): Promise<Catalogue> => import("./fr/index.js").then(({ units, fr: texts }) => ({ units, texts })),
-  zh: async (): Promise<Catalogue> => import("./zh/index.js").then(({ units, zh: texts }) => ({ units, texts })),
-} as const;
-
-export type LanguageCode = keyof typeof LOADERS;
-
-export const LANGUAGES = Object.keys(LOADERS) as LanguageCode[];
 
 /** Each language's own name. */
-export const LANGUAGE_NAMES: Readonly<Record<LanguageCode, string>> = {
-  en: "English",
-  de: "Deutsch",
-  es: "Español",
-  fr: "Français",
-  zh: "中文",
+export const LANGUAGE_NAMES = { en: "English", de: "Deutsch", es: "Español", fr: "Français", zh: "中文" } as const;
+
+export type LanguageCode = keyof typeof LANGUAGE_NAMES;
+
+export const LANGUAGES = Object.keys(LANGUAGE_NAMES) as LanguageCode[];
+
+type Foreign = Exclude<LanguageCode, "en">;
+type Fetch = () => Promise<{ default: Dictionary }>;
+
+/**
+ * What of a dictionary is on show at first, and the rest, of rooms that are fetched on demand. A build divides each file into these
+ * (`package/dictionaries.ts`); without a build, both are all of it.
+ */
+const DICTIONARIES: Readonly<Record<Foreign, Readonly<Record<"first" | "rest", Fetch>>>> = {
+  de: { first: () => import("./de.json"), rest: () => import("./de.json") },
+  es: { first: () => import("./es.json"), rest: () => import("./es.json") },
+  fr: { first: () => import("./fr.json"), rest: () => import("./fr.json") },
+  zh: { first: () => import("./zh.json"), rest: () => import("./zh.json") },
 };
 
-const ENGLISH: Catalogue = { units: en.units, texts: en.en };
-
-const catalogues = new Map<LanguageCode, Catalogue>([["en", ENGLISH]]);
-const loading = new Map<LanguageCode, Promise<void>>();
+/** Messages that have arrived, of languages in use. */
+const dictionaries = new Map<LanguageCode, Dictionary>([["en", {}]]);
+const files = new Map<Fetch, Promise<Dictionary | null>>();
+const loading = new Map<Foreign, Promise<boolean>>();
+let needsRest = false;
 const made = new Map<string, Language>();
 
 /** The first of these locales with a language; English if there is none, or if it has not been fetched. */
 export function languageOf(...locales: readonly string[]): Language {
   const wanted = locales.find((locale) => codeOf(locale) !== null) ?? "en";
-  const locale = catalogues.has(codeOf(wanted) ?? "en") ? wanted : "en";
+  const locale = dictionaries.has(codeOf(wanted) ?? "en") ? wanted : "en";
   let language = made.get(locale);
   if (language === undefined) {
     const code = codeOf(locale) ?? "en";
-    const { units, texts } = catalogues.get(code) ?? ENGLISH;
-    const format = formatOf(locale, units);
-    made.set(locale, (language = { code, locale, format, texts: texts(format) }));
+    const dictionary = dictionaries.get(code) ?? {};
+    const message = (key: string): string | undefined => dictionary[key] ?? ENGLISH.get(key);
+    const word = (name: keyof typeof FORMAT_WORDS): string => message(`format.${name}`) ?? FORMAT_WORDS[name];
+    const format = formatOf(locale, { hours: word("hours"), minutes: word("minutes"), separator: word("separator") });
+    made.set(locale, (language = { code, locale, format, message, texts: elementTexts({ format, message }) }));
   }
   return language;
 }
 
 /**
  * Fetches the language that {@link languageOf} would choose for these locales. Null if it is present, or if an earlier fetch failed and
- * English replaces it.
+ * English replaces it; the promise is of false if this one fails.
  */
-export function fetchLanguage(...locales: readonly string[]): Promise<void> | null {
+export function fetchLanguage(...locales: readonly string[]): Promise<boolean> | null {
   const code = codeFor(...locales);
-  if (catalogues.has(code)) return null;
+  if (code === "en" || dictionaries.has(code)) return null;
   let arriving = loading.get(code);
-  if (arriving === undefined) {
-    arriving = LOADERS[code]().then(
-      (catalogue) => void catalogues.set(code, catalogue),
-      () => void catalogues.set(code, ENGLISH),
-    );
-    loading.set(code, arriving);
-  }
+  if (arriving === undefined) loading.set(code, (arriving = fill(code)));
   return arriving;
 }
 
+/** Fetches the rest of the languages in use, and from then on with each language. Rooms that are fetched on demand wait for it. */
+export async function fetchRest(): Promise<void> {
+  needsRest = true;
+  await Promise.all([...loading.keys()].map(fill));
+}
+
+/** Fetches what is needed of a dictionary. English replaces what cannot be fetched. */
+async function fill(code: Foreign): Promise<boolean> {
+  const { first, rest } = DICTIONARIES[code];
+  const parts = await Promise.all([fileOf(first), needsRest ? fileOf(rest) : null]);
+  dictionaries.set(code, Object.assign(dictionaries.get(code) ?? {}, ...parts));
+  return parts[0] !== null;
+}
+
+/** Each file is fetched once; null if that fails. */
+function fileOf(fetch: Fetch): Promise<Dictionary | null> {
+  let file = files.get(fetch);
+  if (file === undefined) files.set(fetch, (file = fetch().then(({ default: messages }) => messages, () => null)));
+  return file;
+}
+
 /** The first of these locales with a language, fetched or not; English if there is none. */
-export function codeFor(...locales: readonly string[]): LanguageCode {
+function codeFor(...locales: readonly string[]): LanguageCode {
   return locales.map(codeOf).find((code) => code !== null) ?? "en";
 }
 

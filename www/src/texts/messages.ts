@@ -1,6 +1,6 @@
 /**
  * Messages with named placeholders, in English and in the language of a dictionary. `{name}` is a value as it stands, `{name|mm}` one in a
- * format, `{name|one:# layer|other:# layers}` the form for a number, and `{name|nouns.xml}` the message `nouns.xml.…` that the value names.
+ * format, `{name|one:# layer|other:# layers}` the form for a number, and `{name|names.xml}` the message `names.xml.…` that the value names.
  * `best.layers` is a field of the value `best`.
  */
 import type { FileKind, Metric, Unit } from "../api/wire.js";
@@ -12,6 +12,9 @@ export interface Spoken {
   /** The text of a key, such as `plan.layers`, in this language or else in English. */
   message(key: string): string | undefined;
 }
+
+/** Messages of a language by key. */
+export type Dictionary = Readonly<Record<string, string>>;
 
 export type Tree = string | readonly Tree[] | { readonly [name: string]: Tree };
 

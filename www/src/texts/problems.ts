@@ -1,17 +1,62 @@
-/** Texts about failures. They are long and rarely needed, so they are fetched with the first failure. */
-import { Catalogues } from "./catalogues.js";
-import { problems as en, type ProblemTexts } from "./en/problems.js";
-import type { Format } from "./format.js";
-import type { Language } from "./index.js";
+/** Failures: a heading, an explanation, and advice if no plan keeps the tolerance. Long and rarely needed, so fetched with the first failure. */
+import type { ErrorCode, ErrorDetails } from "../api/error.js";
+import type { Metric } from "../api/wire.js";
+import { sayer } from "./codes.js";
+import { errorCases, errorNames, errors } from "./errors.js";
+import { room, type Spoken } from "./messages.js";
 
-const catalogues = new Catalogues<(format: Format) => ProblemTexts>(en, {
-  de: () => import("./de/problems.js").then(({ problems: words }) => ({ words })),
-  es: () => import("./es/problems.js").then(({ problems: words }) => ({ words })),
-  fr: () => import("./fr/problems.js").then(({ problems: words }) => ({ words })),
-  zh: () => import("./zh/problems.js").then(({ problems: words }) => ({ words })),
+export const problemTexts = room("", {
+  /** A heading for each kind of failure; the sentence below it is that of the failure's code. */
+  headings: {
+    notModel: "{name} is not a model that Cusp reads",
+    empty: "{name} is empty",
+    cutShort: "{name} is cut short",
+    damaged: "{name} is damaged",
+    unusable: "{name} cannot be sliced",
+    tooLarge: "The model is too large for this printer",
+    plate: "The plate cannot be printed like this",
+    tooHigh: "The model is too high for this printer",
+    tooFine: "This resolution is too much for this computer",
+    noHits: "{name} is too thin for these pixels",
+    allBlack: "Every layer would be empty",
+    layerTooThick: "The layers are too thick for this model",
+    rangeEmpty: "No layer of whole motor steps lies in this range",
+    doNotFit: "These layers do not add up to the model’s height",
+    notWhole: "These lengths do not go together",
+    infeasible: "No plan keeps the tolerance all the way up",
+    badRange: "These height ranges do not go together",
+    badPlane: "There can be no plane at this height",
+    badValue: "A value is out of bounds",
+    badOptions: "These settings do not go together",
+    noSuchPrinter: "There is no such printer",
+    badPrinter: "This printer’s description has an error",
+    outOfReach: "No plan is as short as that",
+    gpu: "The GPU could not be used",
+    gpuTooSmall: "The GPU is too small for this model",
+    uniformOnly: "This print file takes uniform layers only",
+    printerUniformOnly: "This printer takes uniform layers only",
+    unreadable: "{name} could not be opened",
+    notFetched: "{name} could not be fetched",
+    startFailed: "The slicer could not be started",
+    crash: "The slicer stopped",
+    notWeights: "{name} holds no weights",
+    otherMesh: "{name} is of another model",
+    other: "That did not work",
+  },
+  /** Advice if no plan keeps the tolerance. */
+  infeasible: {
+    either: "Raise the tolerance, or allow thinner layers if your printer can make them.",
+    larger: "Raise the tolerance.",
+    thinner: "Allow thinner layers if your printer can make them.",
+    neither: "Change the range of layers.",
+  },
+  errors,
+  names: errorNames,
 });
 
-export async function fetchProblemTexts({ code, format }: Language): Promise<ProblemTexts> {
-  await catalogues.fetch(code);
-  return catalogues.of(code)(format);
+const sayError = sayer<typeof errors, ErrorDetails>("errors", errorCases);
+
+/** Sentence about a failure. `metric` is that of tolerances without a unit. */
+export function errorOf<Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code], metric: Metric, language: Spoken): string {
+  return sayError(code, detail, language, { metric });
 }

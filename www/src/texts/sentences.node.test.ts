@@ -1,9 +1,12 @@
 /** Every code in every language, for the details and sentences recorded from the core. */
 import { readFile } from "node:fs/promises";
 import { expect, test } from "vitest";
-import type { ErrorDetails } from "../api/error.js";
-import { languageOf, LANGUAGES, type Format, type LanguageCode } from "./index.js";
-import { fetchProblemTexts } from "./problems.js";
+import type { ErrorCode, ErrorDetails } from "../api/error.js";
+import type { WarningCode } from "../api/warning.js";
+import { errors } from "./errors.js";
+import { languageOf, LANGUAGES, type Format, type Language } from "./index.js";
+import { errorOf } from "./problems.js";
+import { warningOf, warnings } from "./warnings.js";
 
 interface Sample {
   code: string;
@@ -11,8 +14,6 @@ interface Sample {
   /** Sentence of the command line. */
   message: string;
 }
-
-type Sentences = Readonly<Record<string, (detail: unknown, metric: string) => string>>;
 
 const core = JSON.parse(await readFile(new URL("../../../tests/problems.json", import.meta.url), "utf8")) as {
   errors: Sample[];
@@ -50,16 +51,12 @@ function bothCases(sample: Sample): Sample[] {
 
 const own = Object.entries(OWN).map(([code, detail]) => ({ code, ...(detail !== null && { detail: detail as Record<string, unknown> }) }));
 
-const PROBLEMS = new Map(await Promise.all(LANGUAGES.map(async (code) => [code, await fetchProblemTexts(languageOf(code))] as const)));
-
-const sentencesOf = (code: LanguageCode): { format: Format; errors: Sentences; warnings: Sentences } => {
-  const { format, texts } = languageOf(code);
-  return { format, errors: PROBLEMS.get(code)?.errors as unknown as Sentences, warnings: texts.warnings as unknown as Sentences };
-};
+const errorIn = (language: Language, { code, detail }: Omit<Sample, "message">): string => errorOf(code as ErrorCode, (detail ?? null) as never, "cusp", language);
+const warningIn = (language: Language, { code, detail }: Omit<Sample, "message">): string => warningOf(code as WarningCode, (detail ?? null) as never, language);
 
 /** Details shown by offers, or not needed by readers. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
-/** Words translated by a catalogue. */
+/** Fields that sentences say as words. */
 const TRANSLATED = ["work", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
 /** Returns true if a sentence contains a number in the language's format, or a name unchanged. */
@@ -80,26 +77,24 @@ function check(sentence: string, detail: Record<string, unknown> | undefined, fo
 }
 
 test("the core and the page together have every code and no other", () => {
-  const { errors, warnings } = sentencesOf("en");
   const codes = (samples: { code: string }[]): string[] => [...new Set(samples.map(({ code }) => code))].sort();
   expect(Object.keys(errors).sort()).toEqual(codes([...core.errors, ...own]));
   expect(Object.keys(warnings).sort()).toEqual(codes(core.warnings));
 });
 
-test.each(LANGUAGES)("every failure and warning is a sentence with its numbers: %s", (language) => {
-  const { format, errors, warnings } = sentencesOf(language);
+test.each(LANGUAGES)("every failure and warning is a sentence with its numbers: %s", (code) => {
+  const language = languageOf(code);
   const failures = [...core.errors.flatMap(bothCases), ...own];
-  for (const { code, detail } of failures) check(errors[code]?.(detail ?? null, "cusp") ?? "", detail, format);
-  for (const { code, detail } of core.warnings.flatMap(bothCases)) check(warnings[code]?.(detail ?? null, "cusp") ?? "", detail, format);
+  for (const failure of failures) check(errorIn(language, failure), failure.detail, language.format);
+  for (const warning of core.warnings.flatMap(bothCases)) check(warningIn(language, warning), warning.detail, language.format);
 });
 
 test("no two languages say the same", () => {
-  for (const { code, detail } of [...core.errors, ...core.warnings]) {
-    const said = LANGUAGES.map((language) => {
-      const { errors, warnings } = sentencesOf(language);
-      return (errors[code] ?? warnings[code])?.(detail ?? null, "cusp");
-    });
-    expect(new Set(said).size, code).toBe(LANGUAGES.length);
+  for (const [samples, sentenceIn] of [[core.errors, errorIn], [core.warnings, warningIn]] as const) {
+    for (const sample of samples) {
+      const said = LANGUAGES.map((code) => sentenceIn(languageOf(code), sample));
+      expect(new Set(said).size, sample.code).toBe(LANGUAGES.length);
+    }
   }
 });
 
@@ -113,15 +108,17 @@ const bare = (sentence: string): string =>
     .replace(/\.$/u, "");
 
 test("in English the page says what the command line says", () => {
-  const { errors, warnings } = sentencesOf("en");
-  for (const { code, detail, message } of core.errors) {
-    const said = bare(errors[code]?.(detail ?? null, "cusp") ?? "");
+  const english = languageOf("en");
+  for (const sample of core.errors) {
+    const said = bare(errorIn(english, sample));
+    const { code, message } = sample;
     // The offers show the fixes.
     if (code === "infeasible") expect(said).toContain("even a layer of # mm exceeds it");
     else expect(said).toBe(bare(message));
   }
-  for (const { code, detail, message } of core.warnings) {
-    const said = bare(warnings[code]?.(detail ?? null, "cusp") ?? "");
+  for (const sample of core.warnings) {
+    const said = bare(warningIn(english, sample));
+    const { code, message } = sample;
     // Only the command line names a command.
     if (code === "untried-thicknesses") expect(said).toContain(bare(message).split(";")[0]);
     else expect(said).toBe(bare(message));

@@ -5,7 +5,7 @@ import type { PlotPlace } from "../element/panels/profile-chart.js";
 import type { Shown } from "../element/state/result.js";
 import { shared } from "../element/styles/shared.js";
 import { languageOf } from "../texts/index.js";
-import { workbenchWords } from "./texts/index.js";
+import { workbenchWords } from "./texts.js";
 import { elementWith, given, own } from "../view/properties.js";
 import { layerAt } from "../view/scene/lookup.js";
 
@@ -145,12 +145,12 @@ export class CuspLayerSlider extends elementWith(PROPERTIES) {
     const { z_mm, thickness_mm } = shown;
     const [bottom, top] = [z_mm[layer] ?? 0, z_mm[layer + 1] ?? 0];
     const [least, most] = plot?.heights_mm ?? [0, z_mm.at(-1) ?? 0];
-    const said = texts.mask.said(
-      format.count(layer + 1),
-      format.count(layers),
-      format.height(bottom),
-      format.height(thickness_mm[layer] ?? top - bottom),
-    );
+    const said = texts.mask.said({
+      layer: format.count(layer + 1),
+      layers: format.count(layers),
+      height: format.height(bottom),
+      thickness: format.height(thickness_mm[layer] ?? top - bottom),
+    });
     return html`<input
       type="range"
       aria-label=${workbenchWords(this.language).layer}

@@ -7,7 +7,7 @@ import type { Facts } from "../element/facts.js";
 import type { Fields } from "../element/panels/settings-form.js";
 import { needsModel, STEPS, type HandTool, type Step } from "./places.js";
 import { stepStates, type Mark } from "./step-states.js";
-import { workbenchWords } from "./texts/index.js";
+import { workbenchWords } from "./texts.js";
 
 /** Fields of the settings form in each step. */
 const FIELDS = { hollow: "hollow", support: "supports", slice: "slice" } as const satisfies Partial<Record<Step, Fields>>;
@@ -93,7 +93,7 @@ function contentOf(facts: Facts, step: Step): TemplateResult | typeof nothing {
 /** Number of points that no support reaches. */
 function missing({ session: { result, settings }, language }: Facts): TemplateResult | typeof nothing {
   const points = settings.supports === "none" ? 0 : (result?.own?.supported?.unreached.length ?? 0);
-  return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing(points, language.format)}</p>`;
+  return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing({ points })}</p>`;
 }
 
 function stepFoot({ session, language }: Facts, step: Step, go: (step: Step) => void): TemplateResult | typeof nothing {
@@ -103,6 +103,6 @@ function stepFoot({ session, language }: Facts, step: Step, go: (step: Step) => 
   const [before, after] = [STEPS[at - 1], STEPS[at + 1]];
   return html`<div class="step-foot">
     ${before === undefined ? nothing : html`<button class="small" @click=${() => go(before)}>${words.back}</button>`}
-    ${after === undefined ? nothing : html`<button class="small next" @click=${() => go(after)}>${words.next(words.steps[after])}</button>`}
+    ${after === undefined ? nothing : html`<button class="small next" @click=${() => go(after)}>${words.next({ step: words.steps[after] })}</button>`}
   </div>`;
 }

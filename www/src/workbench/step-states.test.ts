@@ -6,7 +6,6 @@ import { report } from "../element/state/report-fixture.js";
 import { DEFAULT_SETTINGS, type Faults, type Settings } from "../element/state/settings.js";
 import { languageOf, LANGUAGES } from "../texts/index.js";
 import { stepStates, type Walked } from "./step-states.js";
-import { fetchWorkbenchWords } from "./texts/index.js";
 
 const english = languageOf("en");
 
@@ -88,8 +87,7 @@ test("there is nothing to say of what a filament printer's slicer does", () => {
   expect([hollow, support]).toEqual([{ words: "–", mark: null }, { words: "–", mark: null }]);
 });
 
-test.each(LANGUAGES)("every state fits its place beside four others: %s", async (code) => {
-  await fetchWorkbenchWords(code);
+test.each(LANGUAGES)("every state fits its place beside four others: %s", (code) => {
   const language = languageOf(code);
   const all = [
     {},

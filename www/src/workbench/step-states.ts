@@ -6,7 +6,7 @@ import type { Session } from "../element/state/session.js";
 import { parse } from "../element/state/settings.js";
 import type { Language } from "../texts/index.js";
 import type { Step } from "./places.js";
-import { workbenchWords } from "./texts/index.js";
+import { workbenchWords } from "./texts.js";
 
 /** `done`: the step has an effect; `look`: it needs attention; `wrong`: it must change. */
 export type Mark = "done" | "look" | "wrong" | null;
@@ -38,7 +38,7 @@ export function stepStates(session: Walked, language: Language): Readonly<Record
       ? { words: words.wrong, mark: "wrong" }
       : result === null || shown === null
         ? { words: "–", mark: null }
-        : { words: `${format.count(shown.layers)} ${texts.plan.layers(shown.layers)}`, mark: earlier ? "look" : "done" },
+        : { words: `${format.count(shown.layers)} ${texts.plan.layers({ count: shown.layers })}`, mark: earlier ? "look" : "done" },
   };
 }
 
@@ -49,7 +49,7 @@ function hollow({ settings, faults, result }: Walked, language: Language): StepS
   const wall_mm = parse(settings.wall);
   if (wall_mm === null) return { words: words.solid, mark: null };
   const isAmiss = result?.own?.warnings?.some(({ code }) => OF_VOIDS.includes(code)) ?? false;
-  return { words: words.walls(language.format.mm(wall_mm)), mark: isAmiss ? "look" : "done" };
+  return { words: words.walls({ thickness: language.format.mm(wall_mm) }), mark: isAmiss ? "look" : "done" };
 }
 
 function support({ settings: { supports, format }, result }: Walked, language: Language): StepState {
@@ -61,5 +61,5 @@ function support({ settings: { supports, format }, result }: Walked, language: L
   // Points of another strength belong to an earlier plan.
   if (supported === undefined || result?.options.supports?.strength !== supports) return { words: strength, mark: "done" };
   const mark = supported.unreached.length > 0 ? "look" : "done";
-  return { words: words.supports(strength, supported.points.length, language.format), mark };
+  return { words: words.supports({ strength, points: supported.points.length }), mark };
 }

@@ -27,7 +27,7 @@ import type { Result } from "../element/state/result.js";
 import { path, stepPanel } from "./path.js";
 import { ANSWERS, isStep, needsModel, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { tabs } from "./tabs.js";
-import { workbenchWords } from "./texts/index.js";
+import { workbenchWords } from "./texts.js";
 import { shown } from "../api/visible.js";
 
 /** State of the workbench itself: the open panels, and the position of the chart's plot. */
@@ -201,7 +201,7 @@ function exposure({ language }: Facts, { report: { resin } }: Result): TemplateR
   const { exposure_s, layer_mm } = resin;
   if (exposure_s === undefined || layer_mm === undefined) return nothing;
   const { format } = language;
-  return html`<p class="exposure quiet">${workbenchWords(language).exposure(format.seconds(exposure_s), format.fine(layer_mm))}</p>`;
+  return html`<p class="exposure quiet">${workbenchWords(language).exposure({ seconds: format.seconds(exposure_s), thickness: format.fine(layer_mm) })}</p>`;
 }
 
 /** Uniform layers have a thickness, not a quality. */
@@ -224,7 +224,7 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
         <span class="visually-hidden">${words.more}</span>
         ${result === null
           ? html`<strong>–</strong>`
-          : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers(layers)}</strong>
+          : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers({ count: layers })}</strong>
               ${isFilament(result.report.print_file.format) ? nothing : html`<span>${format.time(print_time_s)}</span>`}`}
       </button>
       ${result === null ? nothing : downloadButton(facts)}

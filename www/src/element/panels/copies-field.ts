@@ -11,7 +11,7 @@ export function copiesField(plate: Plate, place: number, language: Language): Te
   if (entry === undefined) return nothing;
   const { copies, key, model } = entry;
   const words = language.texts.plate;
-  const name = words.copiesOf(shown(model.name));
+  const name = words.copiesOf({ name: shown(model.name) });
   const misread = plate.misread?.key === key ? plate.misread : null;
   const step = (what: string, sign: string, by: number): TemplateResult => html`<button
     class="small step"

@@ -1,11 +1,10 @@
 /** `<cusp-findings>`: the faults expected when the plan is printed, by kind. Choosing a finding shows its place. */
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
-import { until } from "lit/directives/until.js";
 import type { SlicerError } from "../../api/index.js";
 import type { Count, Finding, Metric, Printability, Severity } from "../../api/wire.js";
-import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings/index.js";
+import { findingsTexts, saidOf, type FindingsTexts } from "../../texts/findings.js";
 import { languageOf, type Language } from "../../texts/index.js";
-import { fetchProblemTexts } from "../../texts/problems.js";
+import { errorOf } from "../../texts/problems.js";
 import { elementWith, given, own } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Checked } from "../state/checked.js";
@@ -83,7 +82,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
 
   #verdict(words: FindingsTexts): TemplateResult {
     const { verdict, error, isCurrent, language, metric } = this;
-    if (error !== null) return html`<p class="quiet failed">${until(sentenceOf(error, language, metric))}</p>`;
+    if (error !== null) return html`<p class="quiet failed">${sentenceOf(error, language, metric)}</p>`;
     if (verdict === null || !isCurrent) return html`<p class="quiet">${words.checking}</p>`;
     return html`<p class="verdict ${verdict}" data-verdict=${verdict}>${sign(verdict)} ${words.verdicts[verdict]}</p>
       ${!this.#hasFindings ? html`<p class="quiet">${words.none}</p>` : nothing}`;
@@ -104,7 +103,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
         />
         ${words.walls}
       </label>
-      <p class="quiet" id="walls-hint">${words.wallsHint(format.mm(wall_mm))}</p>
+      <p class="quiet" id="walls-hint">${words.wallsHint({ limit: format.mm(wall_mm) })}</p>
       ${showsWalls ? html`<cusp-wall-legend .wall_mm=${wall_mm} .texts=${viewTexts(this.language)}></cusp-wall-legend>` : nothing}`;
   }
 
@@ -136,9 +135,9 @@ export class CuspFindings extends elementWith(PROPERTIES) {
         ${shown.map((finding) => this.#item(finding, id, words))}
       </ul>
       ${shown.length < listed.length
-        ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, id]))}>${words.all(format.count(listed.length))}</button>`
+        ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, id]))}>${words.all({ count: format.count(listed.length) })}</button>`
         : found > listed.length
-          ? html`<p class="quiet">${words.smaller(format.count(found - listed.length))}</p>`
+          ? html`<p class="quiet">${words.smaller({ count: format.count(found - listed.length) })}</p>`
           : nothing}
     </section>`;
   }
@@ -147,7 +146,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     const { format } = this.language;
     const { at_mm, layers: [first, last], code } = finding;
     const place = `${at_mm.map((mm) => format.tick(Math.round(mm * 100) / 100)).join(" / ")}\u00a0mm`;
-    const layers = first === last ? words.layer(format.count(first + 1)) : words.layers(format.count(first + 1), format.count(last + 1));
+    const layers = first === last ? words.layer({ number: format.count(first + 1) }) : words.layers({ first: format.count(first + 1), last: format.count(last + 1) });
     return html`<li>
       <button
         class="finding"
@@ -184,10 +183,7 @@ function sign(of: keyof typeof SIGNS | Severity): TemplateResult {
 }
 
 /** Reason for which a check failed. Code and detail belong to the same error. */
-async function sentenceOf({ code, detail }: SlicerError, language: Language, metric: Metric): Promise<string> {
-  const { errors } = await fetchProblemTexts(language);
-  return (errors[code] as (detail: unknown, metric: Metric) => string)(detail, metric);
-}
+const sentenceOf = ({ code, detail }: SlicerError, language: Language, metric: Metric): string => errorOf(code, detail, metric, language);
 
 export function defineFindings(): void {
   define("cusp-findings", CuspFindings);

@@ -79,7 +79,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const z = format.height(report?.z_mm[layer] ?? 0);
     const thickness_mm = report?.thickness_mm[layer] ?? 0;
     const thickness = format.height(thickness_mm);
-    const said = words.said(format.count(layer + 1), format.count(layers), z, thickness);
+    const said = words.said({ layer: format.count(layer + 1), layers: format.count(layers), height: z, thickness });
     const isZoomed = place.zoom > 1;
     // A two-finger zoom is not a whole number.
     const zoom = place.zoom < 10 ? format.tick(Math.round(place.zoom * 10) / 10) : format.count(place.zoom);
@@ -90,7 +90,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
           class=${isZoomed ? "zoomed" : ""}
           role="img"
           tabindex=${isZoomed ? 0 : -1}
-          aria-label=${words.picture(said) + (isZoomed ? `. ${words.wellHint}` : "")}
+          aria-label=${words.picture({ said }) + (isZoomed ? `. ${words.wellHint}` : "")}
           @keydown=${this.#key}
           @dblclick=${this.#zoomHere}
           @touchstart=${this.#touch}
@@ -101,7 +101,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
           @pointercancel=${this.#release}
         ></canvas>
         <div class="tools">
-          ${isZoomed ? html`<span class="zoom figures">${words.zoom(zoom)}</span>` : nothing}
+          ${isZoomed ? html`<span class="zoom figures">${words.zoom({ times: zoom })}</span>` : nothing}
           <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
           <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
         </div>

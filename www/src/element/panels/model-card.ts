@@ -66,7 +66,7 @@ function plateList(session: Session, { plate_number, plates }: PlateChoice, labe
   };
   return html`<select aria-label=${label} @change=${chosen}>
     ${numbers.map(
-      (number) => html`<option value=${number} .selected=${number === plate_number}>${texts.plate.plate(format.count(number), format.count(plates))}</option>`,
+      (number) => html`<option value=${number} .selected=${number === plate_number}>${texts.plate.plate({ number: format.count(number), count: format.count(plates) })}</option>`,
     )}
   </select>`;
 }
@@ -105,7 +105,7 @@ export function modelCard(
       <div>
         <dt>${texts.model.size}</dt>
         <dd title=${texts.model.sizeHelp}>${format.dimensions(size)}</dd>
-        ${isScaled ? html`<dd class="quiet">${texts.model.scaled(format.dimensions(own))}</dd>` : nothing}
+        ${isScaled ? html`<dd class="quiet">${texts.model.scaled({ from: format.dimensions(own) })}</dd>` : nothing}
       </div>
       <div>
         <dt>${texts.model.facets}</dt>
@@ -123,7 +123,7 @@ export function modelCard(
           <button class="small" aria-label=${texts.open.previous} ?disabled=${place === 0} @click=${() => openFile(place - 1)}>
             <span class="flip">‹</span>
           </button>
-          <span class="quiet">${texts.open.place(format.count(place + 1), format.count(files.length))}</span>
+          <span class="quiet">${texts.open.place({ place: format.count(place + 1), total: format.count(files.length) })}</span>
           <button
             class="small"
             aria-label=${texts.open.next}

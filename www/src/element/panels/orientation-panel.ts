@@ -121,7 +121,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         </select>
       </span>
     </label>`;
-    const said = words.parts(words.costs[cost], format.percent(alpha), qualities[quality], format.percent(1 - alpha));
+    const said = words.parts({ cost: words.costs[cost], costPart: format.percent(alpha), quality: qualities[quality], qualityPart: format.percent(1 - alpha) });
     return html`<div class="aims">
       ${choice(words.cost, cost, COSTS, words.costs, (cost) => this.#aim({ cost }))}
       ${choice(words.quality, quality, QUALITIES, qualities, (quality) => this.#aim({ quality }))}
@@ -265,7 +265,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     >
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
-      <span class="visually-hidden">${texts.orientation.rank(format.count(place + 1))}:</span>
+      <span class="visually-hidden">${texts.orientation.rank({ rank: format.count(place + 1) })}:</span>
       <span class="what">
         ${this.#figures(
           candidate,
@@ -284,7 +284,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     if (metrics === null) return html`${nothing}`;
     const metric = options?.metric ?? this.metric;
     const of = (term: Term): string => figure(term, metrics, metric, language);
-    return html`<span class="cost"><strong>${of("layers")} ${texts.plan.layers(metrics.layers)}</strong> <span>${of("time")}</span></span>
+    return html`<span class="cost"><strong>${of("layers")} ${texts.plan.layers({ count: metrics.layers })}</strong> <span>${of("time")}</span></span>
       ${differing.map((it) => html`<span class="differs">${it}</span>`)}
       <span class="rest quiet">
         <span>${texts.metrics[metric].head} ${of("error")}</span>
@@ -317,10 +317,10 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       if (metrics === null) return "";
       const metric = options?.metric ?? this.metric;
       const [time, error] = (["time", "error"] as const).map((term) => figure(term, metrics, metric, language)) as [string, string];
-      return texts.orientation.said(metrics.layers, time, texts.metrics[metric].head, error);
+      return texts.orientation.said({ layers: metrics.layers, time, head: texts.metrics[metric].head, error });
     }
     if (busy !== null) return texts.progress[busy.stage];
-    return found !== null && best.length > 0 ? texts.orientation.found(format.count(found.candidates.length)) : "";
+    return found !== null && best.length > 0 ? texts.orientation.found({ count: format.count(found.candidates.length) }) : "";
   }
 
   /** Draws the best poses. The model's positions are fetched for this and then dropped. */

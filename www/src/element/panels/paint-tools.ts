@@ -2,7 +2,7 @@
 import { chosen } from "../parts/chosen.js";
 import { css, html, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
-import { paintingTexts } from "../../texts/painting/index.js";
+import { paintingTexts } from "../../texts/painting.js";
 import type { Brush, BrushMode } from "../../view/paint/brush.js";
 import type { Heat } from "../../view/paint/heat.js";
 import { WEIGHT_STEPS, type Settings } from "../state/settings.js";

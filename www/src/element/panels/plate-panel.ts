@@ -1,10 +1,9 @@
 /** `<cusp-plate>`: the models on the plate, their copies, the rules of arranging, and the plates. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import { until } from "lit/directives/until.js";
 import type { Plan } from "../../api/index.js";
 import type { ArrangeError, Arranging, Placement } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
-import { fetchProblemTexts } from "../../texts/problems.js";
+import { errorOf } from "../../texts/problems.js";
 import { elementWith, given } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Entry, MisreadCopies, Plate } from "../state/plate.js";
@@ -143,8 +142,8 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     return html`
       <h3>${words.title}</h3>
       <div aria-live="polite">
-        ${sentences.map((sentence) => html`<p class="problem">${until(sentence)}</p>`)}
-        ${more > 0 ? html`<p class="problem">${words.others(language.format.count(more))}</p>` : nothing}
+        ${sentences.map((sentence) => html`<p class="problem">${sentence}</p>`)}
+        ${more > 0 ? html`<p class="problem">${words.others({ count: language.format.count(more) })}</p>` : nothing}
         ${placed.length > 0 && problems.length === 0 ? html`<p class="quiet">${words.moved}</p>` : nothing}
       </div>
       ${this.plates > 1 ? this.#steps(plate) : nothing}
@@ -174,13 +173,13 @@ export class CuspPlate extends elementWith(PROPERTIES) {
       <canvas width=${2 * THUMBNAIL_PX} height=${2 * THUMBNAIL_PX} data-place=${place} aria-hidden="true"></canvas>
       <button class="name" aria-pressed=${isSelected ? "true" : "false"} @click=${() => plate.select(place)}>${shown(entry.model.name)}</button>
       ${entries.length > 1
-        ? html`<button class="small remove" aria-label=${words.remove(shown(entry.model.name))} @click=${() => plate.remove(place)}>×</button>`
+        ? html`<button class="small remove" aria-label=${words.remove({ name: shown(entry.model.name) })} @click=${() => plate.remove(place)}>×</button>`
         : nothing}
       <div class="amount">
         ${copiesField(plate, place, language)}
         ${share === undefined
           ? nothing
-          : html`<span class="quiet figures">${words.each(format.time(share.print_time_s), format.millilitres(share.resin_ml))}</span>`}
+          : html`<span class="quiet figures">${words.each({ time: format.time(share.print_time_s), resin: format.millilitres(share.resin_ml) })}</span>`}
       </div>
     </li>`;
   }
@@ -205,7 +204,7 @@ export class CuspPlate extends elementWith(PROPERTIES) {
         <select @change=${turned}>
           ${TURNS_DEG.map(
             (degrees) => html`<option value=${degrees} ?selected=${degrees === arranging.turn_deg}>
-              ${degrees === 0 ? words.turnless : words.step(String(degrees))}
+              ${degrees === 0 ? words.turnless : words.step({ degrees: String(degrees) })}
             </option>`,
           )}
         </select>
@@ -228,13 +227,13 @@ export class CuspPlate extends elementWith(PROPERTIES) {
     </button>`;
     return html`<div class="row plates">
         ${step(words.previous, "‹", number - 1)}
-        <span class="figures" aria-live="polite">${words.plate(format.count(number + 1), format.count(plates))}</span>
+        <span class="figures" aria-live="polite">${words.plate({ number: format.count(number + 1), count: format.count(plates) })}</span>
         ${step(words.next, "›", number + 1)}
         <button class="small all" ?disabled=${isBusy} @click=${() => this.dispatchEvent(new CustomEvent("cusp-save-all"))}>${words.all}</button>
       </div>
       ${planned === null
         ? nothing
-        : html`<p class="quiet figures">${words.whole(format.time(planned.print_time_s), format.millilitres(planned.resin_ml))}</p>`}`;
+        : html`<p class="quiet figures">${words.whole({ time: format.time(planned.print_time_s), resin: format.millilitres(planned.resin_ml) })}</p>`}`;
   }
 
   /** Draws thumbnails whose model or pose has changed. */
@@ -265,10 +264,8 @@ export class CuspPlate extends elementWith(PROPERTIES) {
   }
 }
 
-async function sentenceOf(problem: ArrangeError, language: Language): Promise<string> {
-  const { errors } = await fetchProblemTexts(language);
-  if (problem.code === "plate-outside") return errors["plate-outside"](problem.detail, "cusp");
-  if (problem.code === "plate-collision") return errors["plate-collision"](problem.detail, "cusp");
+function sentenceOf(problem: ArrangeError, language: Language): string {
+  if (problem.code === "plate-outside" || problem.code === "plate-collision") return errorOf(problem.code, problem.detail, "cusp", language);
   return "";
 }
 

@@ -5,7 +5,7 @@ import { FACTS } from "../../api/facts.js";
 import type { Slicer } from "../../api/index.js";
 import { stemOf } from "../../api/source.js";
 import type { Language } from "../../texts/index.js";
-import { placingTexts, type PlacingTexts } from "../../texts/placing/index.js";
+import { placingTexts, type PlacingTexts } from "../../texts/placing.js";
 import type { PointDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import { iconButton, stepButtons } from "../parts/icon-button.js";
@@ -134,7 +134,7 @@ export class PointEditor {
     const point = place === null ? undefined : list[place];
     const usual_mm = FACTS.contacts_mm[settings.supports === "none" ? "medium" : settings.supports];
     const isNone = place === null || point === undefined;
-    const said = isNone ? words[kind].none : words[kind].selected(format.count(place + 1), format.count(list.length), format.height(point.at_mm[2]));
+    const said = isNone ? words[kind].none : words[kind].selected({ number: format.count(place + 1), all: format.count(list.length), height: format.height(point.at_mm[2]) });
     return html`<fieldset class="selected" ?disabled=${isNone}>
       <legend><span role="status">${said}</span></legend>
       <div class="row">

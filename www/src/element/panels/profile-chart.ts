@@ -182,14 +182,14 @@ export class CuspChart extends elementWith(PROPERTIES) {
   #at({ metric, bin_mm }: ChartData, bin: number, density: number): string {
     const { texts, format } = this.language;
     const value = METRICS[metric].density(density, format);
-    return texts.chart.at(format.height((bin + 0.5) * bin_mm), texts.metrics[metric].density(value));
+    return texts.chart.at({ height: format.height((bin + 0.5) * bin_mm), density: texts.metrics[metric].density({ value }) });
   }
 
   /** Description of the selected layer. */
   #value({ z_mm, thickness_mm }: ChartData): string {
     const { layer, language: { texts, format } } = this;
     const [z, thickness] = [format.height(z_mm[layer] ?? 0), format.height(thickness_mm[layer] ?? 0)];
-    return texts.mask.said(format.count(layer + 1), format.count(thickness_mm.length), z, thickness);
+    return texts.mask.said({ layer: format.count(layer + 1), layers: format.count(thickness_mm.length), height: z, thickness });
   }
 
   /** Description of the chart for screen readers. */
@@ -199,7 +199,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
     const { metric, thickness_mm, z_mm } = this.data;
     const [least, most] = [Math.min(...thickness_mm), Math.max(...thickness_mm)].map((mm) => format.fine(mm)) as [string, string];
     const height = format.height(z_mm.at(-1) ?? 0);
-    return texts.chart.said(texts.metrics[metric].axis, height, thickness_mm.length, least, most);
+    return texts.chart.said({ axis: texts.metrics[metric].axis, height, layers: thickness_mm.length, least, most });
   }
 
   readonly #build = (): void => {

@@ -222,8 +222,7 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         <p class="waiting quiet">${points === null ? words.waiting : nothing}</p>`;
     }
     const { report, limits } = result;
-    const { head: error } = texts.metrics[report.metric];
-    const said = words.said(error, METRICS[report.metric].error(report.max_error, format), format.time(report.print_time_s), report.layers);
+    const said = words.said({ head: texts.metrics[report.metric].head, error: METRICS[report.metric].error(report.max_error, format), time: format.time(report.print_time_s), layers: report.layers });
     const head = html`<div class="head">
       <h3>${words.title}</h3>
       <span class="quiet figures">${said}</span>
@@ -233,12 +232,12 @@ export class CuspQuality extends elementWith(PROPERTIES) {
     const { dots, own, finest, coarsest } = pictureOf(points, result);
     return html`
       ${head}
-      <p class="axis quiet figures"><span aria-hidden="true">↑</span> ${words.time(format.time(timesOf(points, report)[1]))}</p>
+      <p class="axis quiet figures"><span aria-hidden="true">↑</span> ${words.time({ longest: format.time(timesOf(points, report)[1]) })}</p>
       <svg
         viewBox="0 0 ${WIDTH} ${HEIGHT}"
         preserveAspectRatio="none"
         role="img"
-        aria-label=${words.axis(error)}
+        aria-label=${words.axis({ head: texts.metrics[report.metric].head })}
       >
         <path class="base" d="M0 ${HEIGHT}h${WIDTH}" />
         <path class="curve" d=${`M${dots.map(({ x, y }) => `${x} ${y}`).join("L")}`} />
@@ -263,8 +262,8 @@ export class CuspQuality extends elementWith(PROPERTIES) {
       <ul class="key quiet figures">
         <li><i class="this"></i>${texts.plan.own}</li>
         <li><i class="point"></i>${words.points}</li>
-        <li><i class="coarse"></i>${words.coarsest(format.fine(limits[1]), format.time(report.uniform.coarsest.print_time_s))}</li>
-        <li><i></i>${words.finest(format.fine(limits[0]), format.time(report.uniform.finest.print_time_s))}</li>
+        <li><i class="coarse"></i>${words.coarsest({ uniform: format.fine(limits[1]), time: format.time(report.uniform.coarsest.print_time_s) })}</li>
+        <li><i></i>${words.finest({ uniform: format.fine(limits[0]), time: format.time(report.uniform.finest.print_time_s) })}</li>
       </ul>
       ${gain}
     `;

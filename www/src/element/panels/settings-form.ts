@@ -140,7 +140,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         ? this.#select(
             "rays",
             words.resolution,
-            options(RAYS.map((rays) => [String(rays), words.pixels(format.count(rays))]), settings.rays),
+            options(RAYS.map((rays) => [String(rays), words.pixels({ count: format.count(rays) })]), settings.rays),
             { hint: words.resolutionHint },
           )
         : nothing}
@@ -182,11 +182,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const printer = printerOf(settings.printer, offered.printers);
     if (printer === null) return "";
     const { pixels, pitch_um, volume_mm } = printer;
-    return texts.settings.printerHint(
-      modelOf(printer),
-      pixels.map(format.count).join(" × "),
-      `${[...new Set(pitch_um)].map(format.tick).join(" × ")}\u00a0µm`,
-      format.dimensions(volume_mm),
+    return texts.settings.printerHint({ model: modelOf(printer), pixels: pixels.map(format.count).join(" × "), pitch: `${[...new Set(pitch_um)].map(format.tick).join(" × ")}\u00a0µm`, volume: format.dimensions(volume_mm) }
     );
   }
 
@@ -218,7 +214,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   #exposure(): TemplateResult {
     const { texts: { settings: words }, format } = this.language;
     const { exposure_s, layer_mm } = this.#cure;
-    return this.#field("exposure", words.exposure, { hint: words.exposureHint(format.fine(layer_mm)), placeholder: String(exposure_s) });
+    return this.#field("exposure", words.exposure, { hint: words.exposureHint({ thickness: format.fine(layer_mm) }), placeholder: String(exposure_s) });
   }
 
   #format(): TemplateResult {
@@ -295,7 +291,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { texts, format } = this.language;
     const least = usualOf(metric, file, nozzleOf(nozzle));
     const isMore = taken !== null && taken > least;
-    const hint = isMore ? texts.settings.toleranceTaken(METRICS[metric].error(least, format)) : texts.metrics[metric].help;
+    const hint = isMore ? texts.settings.toleranceTaken({ usual: METRICS[metric].error(least, format) }) : texts.metrics[metric].help;
     return this.#field("tolerance", texts.settings.tolerance, { hint, placeholder: usualTolerance(metric, taken, file, nozzle) });
   }
 

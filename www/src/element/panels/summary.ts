@@ -168,11 +168,11 @@ export function figures(result: Result, shown: Pick<Shown, "layers" | "print_tim
   const { texts, format } = language;
   return html`<div>
     <div class="figure">
-      <p class="count" data-layers=${shown.layers}>${format.count(shown.layers)}<span>${texts.plan.layers(shown.layers)}</span></p>
+      <p class="count" data-layers=${shown.layers}>${format.count(shown.layers)}<span>${texts.plan.layers({ count: shown.layers })}</span></p>
       ${isFilament(report.print_file.format)
         ? nothing
-        : html`<p class="time">${texts.plan.time(format.time(shown.print_time_s))}</p>
-            <p class="time resin">${texts.plan.resin(format.millilitres(report.resin_ml))}</p>`}
+        : html`<p class="time">${texts.plan.time({ time: format.time(shown.print_time_s) })}</p>
+            <p class="time resin">${texts.plan.resin({ ml: format.millilitres(report.resin_ml) })}</p>`}
     </div>
     <p class="gain">${sentence(result, language)}</p>
   </div>`;
@@ -200,7 +200,7 @@ export function comparison(result: Result, { texts, format }: Language): Templat
       <tbody>
         ${compared.map(
           ({ kind, uniform_mm, layers, print_time_s, max_error, holds }) => html`<tr class=${kind}>
-            <th scope="row">${kind === "own" || uniform_mm === null ? texts.plan.own : texts.plan[kind](format.fine(uniform_mm))}</th>
+            <th scope="row">${kind === "own" || uniform_mm === null ? texts.plan.own : texts.plan[kind]({ thickness: format.fine(uniform_mm) })}</th>
             <td class="number">${format.count(layers)}</td>
             <td class="bar" aria-hidden="true"><div ${styled({ width: `${(100 * layers) / most}%` })}></div></td>
             ${isResin ? html`<td class="number">${format.time(print_time_s)}</td>` : nothing}
@@ -224,9 +224,9 @@ export function details({ report }: Result, { texts: { details: words }, format 
   const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
   const method = report.gpu_method === "fill" || report.gpu_method === "peel" ? words.methods[report.gpu_method] : null;
   const how = [report.adapter, method].filter((part) => part !== null).join(", ");
-  const ran = report.backend === "gpu" ? words.gpu(how === "" ? null : how) : words.cpu;
+  const ran = report.backend !== "gpu" ? words.cpu : how === "" ? words.gpu.bare : words.gpu.how({ how });
   return html`<details class="quiet figures">
-    <summary>${words.ran(ran, format.duration(timings_ms.total))}</summary>
+    <summary>${words.ran({ where: ran, duration: format.duration(timings_ms.total) })}</summary>
     <dl class="facts">
       ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
       ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
@@ -236,8 +236,8 @@ export function details({ report }: Result, { texts: { details: words }, format 
       ${fact(words.flats, format.count(report.snapped_mm.length))}
       ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
       ${fact(words.overhead, format.seconds(report.overhead_s))}
-      ${fact(words.mask, words.maskSize(format.count(mask.width), format.count(mask.height), format.fine(mask.pitch_mm)))}
-      ${fact(words.bins, words.binSize(format.count(report.bins), format.fine(report.bin_mm)))}
+      ${fact(words.mask, words.maskSize({ width: format.count(mask.width), height: format.count(mask.height), pitch: format.fine(mask.pitch_mm) }))}
+      ${fact(words.bins, words.binSize({ count: format.count(report.bins), bin: format.fine(report.bin_mm) }))}
       ${fact(words.hits, format.count(report.models.reduce((sum, { hits }) => sum + hits, 0)))}
     </dl>
   </details>`;

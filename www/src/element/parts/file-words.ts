@@ -1,6 +1,7 @@
 /** The line at the download button: the format of the file, the printer's support for it, and the preparation of the model. */
 import type { Format, KnownPrinter, Report } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
+import { filled } from "../../texts/messages.js";
 import { modelOf, printerOf } from "../state/printer.js";
 import type { Result } from "../state/result.js";
 
@@ -13,23 +14,24 @@ const SETTINGS: Partial<Record<Format, string>> = {
 export function fileWords({ report }: Pick<Result, "report">, printers: readonly KnownPrinter[], { texts, format: { either, mm } }: Language): string {
   const { file: words } = texts;
   const { format, extension, is_read_by_printer: isRead, filament } = report.print_file;
+  const kind = filled(words.kinds[format], { extension });
   if (filament !== undefined) {
-    const set = words.match(mm(filament.first_layer_mm), SETTINGS[format] ?? "");
-    return words.together([words.kinds[format](extension), set]);
+    const set = words.match({ thickness: mm(filament.first_layer_mm), setting: SETTINGS[format] ?? "" });
+    return words.together({ before: kind, next: set });
   }
   const printer = printerOf(report.options.printer, printers);
   const reading = (): string[] => {
     const refused = report.warnings.find(({ code }) => code === "one-thickness");
-    if (refused?.code === "one-thickness") return [refused.detail.taker === format ? words.oneInFile : words.onePerPrint(refused.detail.taker)];
+    if (refused?.code === "one-thickness") return [refused.detail.taker === format ? words.oneInFile : words.onePerPrint({ printer: refused.detail.taker })];
     if (printer === null) return [];
     const model = modelOf(printer);
-    if (isRead) return [words.direct(model)];
+    if (isRead) return [words.direct({ printer: model })];
     const { reads = [] } = printer;
     // No converter reads a zip of images.
-    if (format === "png" || reads.length === 0) return [words.unreadable(model)];
-    return [words.convert(model, either(reads.map((extension) => `.${extension}`)))];
+    if (format === "png" || reads.length === 0) return [words.unreadable({ printer: model })];
+    return [words.convert({ printer: model, extensions: either(reads.map((extension) => `.${extension}`)) })];
   };
-  return words.together([words.kinds[format](extension), ...reading(), prepared(report, words)]);
+  return [kind, ...reading(), prepared(report, words)].reduce((before, next) => words.together({ before, next }));
 }
 
 /** Sentence on the preparation of the models: supports, hollowing, or none. */

@@ -1,7 +1,7 @@
 /** Parts whose code is fetched when first shown, and the message shown if that fails. */
 import { css, html, nothing, type CSSResult, type LitElement, type TemplateResult } from "lit";
 import { said, SlicerError } from "../../api/error.js";
-import type { Language } from "../../texts/index.js";
+import { fetchRest, type Language } from "../../texts/index.js";
 import { fetched } from "./fetched.js";
 
 /** Names of the parts. `pictures` are those of the best orientations; `reader` is our page's reader of print files. */
@@ -51,8 +51,8 @@ export class FetchedPanel<Code> {
         element.requestUpdate();
       });
     }
-    this.#arriving ??= this.#fetch()
-      .then((code) => {
+    this.#arriving ??= Promise.all([this.#fetch(), fetchRest()])
+      .then(([code]) => {
         this.#arrived(code);
         this.code = code;
         this.isThere = true;

@@ -81,7 +81,7 @@ export function progressBar(busy: Busy, { texts, format }: Language, cancel: () 
         <p class="words">${words}</p>
         ${left_s === null
           ? nothing
-          : html`<p class="quiet figures left">${texts.progress.left(format.duration(1000 * Math.max(1, left_s)))}</p>`}
+          : html`<p class="quiet figures left">${texts.progress.left({ seconds: format.duration(1000 * Math.max(1, left_s)) })}</p>`}
       </div>
       <progress max="1" .value=${busy.done} aria-label=${words}></progress>
     </div>

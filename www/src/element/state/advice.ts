@@ -1,7 +1,7 @@
 /** Warnings as sentences, with offers. */
-import type { WarningCode, WarningDetails } from "../../api/warning.js";
 import type { ModelUnit, PlateChoice, UniformLayers, Warning } from "../../api/wire.js";
-import type { Language, Texts } from "../../texts/index.js";
+import type { Language } from "../../texts/index.js";
+import { warningOf } from "../../texts/warnings.js";
 import { FORMATS } from "../../api/facts.js";
 import type { Settings } from "./settings.js";
 
@@ -19,7 +19,7 @@ export function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Setti
 export function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
   // Removes the rounding error of a sum of bins.
   const uniform = String(Number(layer_mm.toFixed(6)));
-  return { label: texts.offers.bestUniform(format.fine(layer_mm), layers), change: { planner: "uniform", uniform } };
+  return { label: texts.offers.bestUniform({ thickness: format.fine(layer_mm), layers }), change: { planner: "uniform", uniform } };
 }
 
 /** A warning as a sentence, with offers. */
@@ -41,7 +41,7 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
   const advice = new Map<string, Advice>();
   for (const warning of warnings) {
     if (warning.code === "untried-thicknesses" && fixed.has("printer")) continue;
-    const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language.texts);
+    const text = warningOf(warning.code, "detail" in warning ? warning.detail : null, language);
     const best = warning.code === "one-thickness" ? warning.detail.best : null;
     const units = warning.code === "odd-size" ? warning.detail.readings : [];
     const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
@@ -70,10 +70,8 @@ export function adviseOn(all: readonly Warned[], language: Language, fixed: Read
   return [...said.values()];
 }
 
-const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit(unit), change: { unit } });
+const inUnit = (unit: ModelUnit, { texts }: Language): Offer => ({ label: texts.offers.unit({ unit }), change: { unit } });
 
 /** Returns true if support for several thicknesses depends on the printer, not on the format. */
 const isOfPrinter = (warning: Warning): boolean =>
   warning.code === "untried-thicknesses" || (warning.code === "one-thickness" && !FORMATS.some((format) => format === warning.detail.taker));
-
-const warningOf = <Code extends WarningCode>(code: Code, detail: WarningDetails[Code], { warnings }: Texts): string => warnings[code](detail);

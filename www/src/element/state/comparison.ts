@@ -60,14 +60,14 @@ export const enough = (compared: Compared): BestUniform | null =>
 export function sentence(compared: Compared, { texts: { gain, metrics }, format }: Language, by = minimized(compared)): string {
   const { report, limits } = compared;
   const error = (value: number): string => METRICS[report.metric].error(value, format);
-  if (!holds(report, report.max_error)) return gain.over(metrics[report.metric].subject, error(report.max_error), error(report.tolerance));
-  if (report.planner === "uniform") return gain.isUniform(error(report.tolerance));
+  if (!holds(report, report.max_error)) return gain.over({ subject: metrics[report.metric].subject, error: error(report.max_error), tolerance: error(report.tolerance) });
+  if (report.planner === "uniform") return gain.isUniform({ tolerance: error(report.tolerance) });
   const best = bestBy(compared, by);
-  if (best === null) return gain.none(format.fine(limits[0]), format.fine(limits[1]), error(report.tolerance));
+  if (best === null) return gain.none({ thin: format.fine(limits[0]), thick: format.fine(limits[1]), tolerance: error(report.tolerance) });
   const of = ({ layers, print_time_s }: Pick<Report, "layers" | "print_time_s">): number => (by === "time" ? print_time_s : layers);
   const saved = 1 - of(report) / of(best);
   const figure = by === "time" ? format.time(best.print_time_s) : format.count(best.layers);
   const isLittle = saved < 0.005 || (by === minimized(compared) && report.uniform.is_enough);
-  if (isLittle) return gain.little(format.fine(best.layer_mm), figure, error(report.tolerance));
-  return gain.saved[by](format.percent(saved), format.fine(best.layer_mm), figure);
+  if (isLittle) return gain.little({ uniform: format.fine(best.layer_mm), figure, tolerance: error(report.tolerance) });
+  return gain.saved[by]({ part: format.percent(saved), uniform: format.fine(best.layer_mm), figure });
 }

@@ -40,12 +40,12 @@ test("every language says which is less", () => {
   for (const code of LANGUAGES) {
     const { texts } = languageOf(code);
     const { differs } = texts.orientation;
-    const pairs = [true, false].map((isLess) => [
-      differs.layers(12, isLess),
-      differs.time("5 min", isLess),
-      differs.error(texts.metrics.cusp.head, "0.01 mm", isLess),
-      differs.roughness("2 µm", isLess),
-      differs.overhang("30 mm²", isLess),
+    const pairs = (["less", "more"] as const).map((way) => [
+      differs.layers[way]({ count: 12 }),
+      differs.time[way]({ amount: "5 min" }),
+      differs.error[way]({ head: texts.metrics.cusp.head, amount: "0.01 mm" }),
+      differs.roughness[way]({ amount: "2 µm" }),
+      differs.overhang[way]({ amount: "30 mm²" }),
     ]);
     const [less = [], more = []] = pairs;
     for (const [i, it] of less.entries()) expect(it, code).not.toBe(more[i]);

@@ -67,9 +67,10 @@ export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims,
     const found = difference(term);
     if (found === null) return null;
     const { amount, written, isLess } = found;
-    if (term === "layers" || term === "islands") return differs[term](amount, isLess);
-    if (term === "error") return differs.error(names[metric].head, written, isLess);
-    return differs[term](written, isLess);
+    const way = isLess ? "less" : "more";
+    if (term === "layers" || term === "islands") return differs[term][way]({ count: amount });
+    if (term === "error") return differs.error[way]({ head: names[metric].head, amount: written });
+    return differs[term][way]({ amount: written });
   };
   const qualities = quality === "overhang" ? [quality] : [quality, "overhang" as const];
   return [words(cost) ?? differs.same[cost], ...qualities.flatMap((term) => words(term) ?? [])];

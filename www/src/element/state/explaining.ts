@@ -1,5 +1,5 @@
 /** Explanation of the last failure. The code is fetched with the first failure. */
-import type { Language } from "../../texts/index.js";
+import { fetchRest, type Language } from "../../texts/index.js";
 import type { Failure, Problem } from "./problem.js";
 import type { Settings } from "./settings.js";
 
@@ -35,8 +35,8 @@ export class Explaining {
 
 async function explained(asked: Asked): Promise<Problem> {
   try {
-    const { explained } = await import("./problem.js");
-    return await explained(...asked);
+    const [{ explain }] = await Promise.all([import("./problem.js"), fetchRest()]);
+    return explain(...asked);
   } catch {
     // If the code cannot be loaded, as without a connection, shows the core's own sentence.
     const [{ error: { code, message } }] = asked;

@@ -1,4 +1,4 @@
-/** Metrics: their units, and formatting of their values. Their names are in the text catalogues. */
+/** Metrics: their units, and formatting of their values. Their names are among the texts. */
 import { FACTS } from "../../api/facts.js";
 import type { Metric } from "../../api/wire.js";
 import type { Format } from "../../texts/index.js";

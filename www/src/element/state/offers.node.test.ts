@@ -6,13 +6,11 @@ import { ofCore, type SlicerError } from "../../api/error.js";
 import type { Report } from "../../api/wire.js";
 import { binaryStl } from "../../page/example.js";
 import { languageOf } from "../../texts/index.js";
-import { fetchProblemTexts } from "../../texts/problems.js";
 import { ball } from "../../view/fixtures.js";
 import { explain } from "./problem.js";
 import { changed, check, fromAddress, type Settings } from "./settings.js";
 
 const ENGLISH = languageOf("en");
-const TEXTS = await fetchProblemTexts(ENGLISH);
 const HEIGHT_MM = 20;
 
 beforeAll(startCore);
@@ -44,7 +42,7 @@ test.each([
   const settings = fromAddress(query);
   const error = await planned(job, settings);
   if (!("code" in error)) throw new Error("there is a plan");
-  const { offers } = explain({ error, task: "plan", name: "ball.stl", settings, height_mm: HEIGHT_MM }, ENGLISH, TEXTS, new Set());
+  const { offers } = explain({ error, task: "plan", name: "ball.stl", settings, height_mm: HEIGHT_MM }, ENGLISH, new Set());
   expect(offers.map(({ label }) => label.replace(/ [\d.]+.*$/, ""))).toEqual(["Tolerance", "Layers from"]);
   for (const { label, change } of offers) {
     const report = await planned(job, changed(settings, change));

@@ -2,13 +2,11 @@ import { expect, test } from "vitest";
 import { SlicerError, type ErrorCode, type ErrorDetails } from "../../api/error.js";
 import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { fetchProblemTexts } from "../../texts/problems.js";
 import { advise, adviseOn } from "./advice.js";
 import { explain as explainIn, type Failure } from "./problem.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 const ENGLISH = languageOf("en");
-const TEXTS = await fetchProblemTexts(ENGLISH);
 
 function explain(
   error: SlicerError,
@@ -17,7 +15,7 @@ function explain(
   fixed: readonly (keyof Settings)[] = [],
   task: Failure["task"] = "plan",
 ): ReturnType<typeof explainIn> {
-  return explainIn({ error, task, name, settings, height_mm: 60 }, ENGLISH, TEXTS, new Set(fixed));
+  return explainIn({ error, task, name, settings, height_mm: 60 }, ENGLISH, new Set(fixed));
 }
 
 const failed = <Code extends ErrorCode>(code: Code, detail: ErrorDetails[Code]): SlicerError =>
@@ -254,7 +252,7 @@ test("where a size is odd, the units that make it usual are offered", () => {
 
 test("a format that cannot hold test towers offers no other settings for them", () => {
   const failure = { error: uniformOnly(undefined), task: "towers", name: "", settings: DEFAULT_SETTINGS, height_mm: 60 } as const;
-  const problem = explainIn(failure, ENGLISH, TEXTS, new Set());
+  const problem = explainIn(failure, ENGLISH, new Set());
   expect(problem).toMatchObject({ title: "This print file takes uniform layers only", field: "format", offers: [] });
 });
 

@@ -1,8 +1,8 @@
 /** Failures explained: a sentence, the field that caused it, and offers that may fix it. Fetched with the first failure. */
-import type { ErrorCode, ErrorDetails, SlicerError } from "../../api/error.js";
-import type { ProblemTexts } from "../../texts/en/problems.js";
+import type { ErrorCode, SlicerError } from "../../api/error.js";
 import type { Language } from "../../texts/index.js";
-import { fetchProblemTexts } from "../../texts/problems.js";
+import { filled } from "../../texts/messages.js";
+import { errorOf, problemTexts } from "../../texts/problems.js";
 import type { Busy } from "../parts/progress.js";
 import { allowed, bestUniform, type Offer } from "./advice.js";
 import { METRICS } from "./metric.js";
@@ -35,7 +35,7 @@ export interface Failure {
   height_mm: number | null;
 }
 
-type Kind = keyof ProblemTexts["headings"];
+type Kind = keyof ReturnType<typeof problemTexts>["headings"];
 
 const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "file-empty": "empty",
@@ -193,33 +193,20 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
  *
  * @param fixed settings that only the page may change, so that no offer changes them
  */
-export async function explained(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Promise<Problem> {
-  return explain(failure, language, await fetchProblemTexts(language), fixed);
-}
-
-export function explain(failure: Failure, language: Language, texts: ProblemTexts, fixed: ReadonlySet<keyof Settings>): Problem {
-  const problem = describe(failure, language, texts, fixed);
+export function explain(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
+  const problem = describe(failure, language, fixed);
   return { ...problem, offers: allowed(problem.offers, fixed) };
 }
 
-function describe(failure: Failure, language: Language, texts: ProblemTexts, fixed: ReadonlySet<keyof Settings>): Problem {
+function describe(failure: Failure, language: Language, fixed: ReadonlySet<keyof Settings>): Problem {
   const { error, name, settings } = failure;
   // The form always gives valid options, except for a printer's description.
   const isOfPrinter = error.code === "bad-options" && typeof settings.printer === "object";
   const kind = isOfPrinter ? "badPrinter" : KINDS[error.code];
-  const text = sentenceOf(error, settings, texts);
-  const problem = { code: error.code, title: texts.headings[kind](shown(name)), field: FIELDS[kind] ?? null };
-  if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, texts, fixed) };
+  const text = errorOf(error.code, error.detail, settings.metric, language);
+  const problem = { code: error.code, title: filled(problemTexts(language).headings[kind], { name: shown(name) }), field: FIELDS[kind] ?? null };
+  if (error.code === "infeasible") return { ...problem, ...waysOut(error, text, settings, language, fixed) };
   return { ...problem, text, offers: offersFor(kind, error, failure, language) };
-}
-
-/** Sentence of the catalogue for a failure. */
-function sentenceOf<Code extends ErrorCode>(
-  { code, detail }: { code: Code; detail: ErrorDetails[Code] },
-  { metric }: Settings,
-  { errors }: ProblemTexts,
-): string {
-  return errors[code](detail, metric);
 }
 
 function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: Language): Offer[] {
@@ -256,7 +243,6 @@ function waysOut(
   place: string,
   settings: Settings,
   language: Language,
-  { infeasible }: ProblemTexts,
   fixed: ReadonlySet<keyof Settings>,
 ): Pick<Problem, "text" | "offers"> {
   const { texts, format } = language;
@@ -267,7 +253,7 @@ function waysOut(
   const least = fixed.has("tolerances") || detail.model_number !== null ? null : detail.least_tolerance;
   if (least !== null) {
     const short = round.up(least * scale);
-    const label = texts.offers.tolerance(written(short / scale, format));
+    const label = texts.offers.tolerance({ error: written(short / scale, format) });
     offers.push({ label, change: withTolerance(settings, String(short)) });
   }
   const largest = fixed.has("layerMin") ? null : detail.largest_layer_min_mm;
@@ -275,11 +261,11 @@ function waysOut(
 
   const way = least === null ? (largest === null ? "neither" : "thinner") : largest === null ? "larger" : "either";
   const isClosed = way === "neither" && fixed.has("layerMin");
-  return { text: isClosed ? place : `${place} ${infeasible[way]}`, offers };
+  return { text: isClosed ? place : `${place} ${problemTexts(language).infeasible[way]}`, offers };
 }
 
 const layersFrom = (mm: number, { texts, format }: Language): Offer => ({
-  label: texts.offers.layersFrom(format.fine(mm)),
+  label: texts.offers.layersFrom({ thickness: format.fine(mm) }),
   change: { layerMin: String(mm) },
 });
 
@@ -290,7 +276,7 @@ function halfAsThin(settings: Settings, language: Language): Offer[] {
 
 function fewerRays(settings: Settings, { texts, format }: Language): Offer[] {
   const half = Number(settings.rays) / 2;
-  return half >= 512 ? [{ label: texts.offers.rays(format.count(half)), change: { rays: String(half) } }] : [];
+  return half >= 512 ? [{ label: texts.offers.rays({ count: format.count(half) }), change: { rays: String(half) } }] : [];
 }
 
 /** Scale at which a model that is too large fits; null for any other error. */
@@ -302,7 +288,7 @@ function scaleThatFits(error: SlicerError): number | null {
 function smaller(scale: number | null, { height_mm }: Failure, { texts, format }: Language): Offer[] {
   if (scale === null || height_mm === null) return [];
   const fitting = Math.floor(10 * height_mm * scale) / 10;
-  return fitting > 0 ? [{ label: texts.offers.scale(format.fine(fitting)), change: { height: String(fitting) } }] : [];
+  return fitting > 0 ? [{ label: texts.offers.scale({ height: format.fine(fitting) }), change: { height: String(fitting) } }] : [];
 }
 
 const withoutPrinter = ({ texts }: Language): Offer => ({ label: texts.offers.noPrinter, change: { printer: "" } });
@@ -322,5 +308,5 @@ function uniformLayers(error: SlicerError, settings: Settings, language: Languag
   const best = isRefused ? error.detail.best : null;
   if (best) return bestUniform(best, language);
   const { texts, format } = language;
-  return { label: texts.offers.uniform(format.fine(parse(settings.uniform) ?? 0)), change: { planner: "uniform" } };
+  return { label: texts.offers.uniform({ thickness: format.fine(parse(settings.uniform) ?? 0) }), change: { planner: "uniform" } };
 }

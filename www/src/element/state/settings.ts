@@ -398,15 +398,15 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
     case "grouped":
       return faults[fault.kind];
     case "unit":
-      return faults.unit(format.either(UNITS_SHOWN[fault.unit]));
+      return faults.unit({ units: format.either(UNITS_SHOWN[fault.unit]) });
     default: {
       const { kind, value, least, most, unit } = fault;
-      const range = faults.between(format.tick(least), format.tick(most), unit === "" ? "" : ` ${unit}`);
-      const words = faults[kind](range);
+      const range = faults.between({ least: format.tick(least), most: format.tick(most), unit: unit === "" ? "" : ` ${unit}` });
+      const words = faults[kind]({ range });
       if (value === null) return words;
       const asMicrometres = value / 1000;
       const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
-      return isSlip ? `${words} ${faults.micrometres(format.tick(value), format.tick(asMicrometres))}` : words;
+      return isSlip ? `${words} ${faults.micrometres({ typed: format.tick(value), mm: format.tick(asMicrometres) })}` : words;
     }
   }
 }

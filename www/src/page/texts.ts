@@ -1,0 +1,38 @@
+/** The texts of the page around the element. */
+import { room } from "../texts/messages.js";
+
+export const pageWords = room("page", {
+  title: "Cusp: adaptive layers for resin printing",
+  tagline: "Thin layers where the surface needs them, thick ones where it does not.",
+  private: "Your model never leaves this computer.",
+  drop: "Drop to open",
+  /** Label of the language list. */
+  languages: "Language",
+  noModel: "No model at hand?",
+  tryExample: "Try the example",
+  printFile: "Look into a print file",
+  example: "Example",
+  /** Buttons of the header: models that this browser keeps, named settings, the list of keys. */
+  recent: "Recent models",
+  saved: "Presets",
+  keys: "Keys",
+  /** Messages about errors of the page itself, with advice. */
+  notices: {
+    /** Shown if a part could not be loaded. */
+    part: "This part of the page could not be loaded; a newer version may have replaced it. Reload the page.",
+    /** Shown if the reader of print files could not be loaded for this file. */
+    reader: "The reader of print files could not be loaded, so {name} is not open. Reload the page, and open the file again.",
+    /** Shown if this browser did not keep the model. */
+    notKept: "{name} was not kept for the next visit: this browser has no room for it, or does not allow it.",
+    reload: "Reload",
+    close: "Close",
+  },
+  /** The page's promises: a heading and a sentence each. */
+  points: [
+    ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],
+    ["No step too high", "The tolerance holds in each layer, not on average."],
+    ["A file to print", "For printers by name, or as images of the layers with their thickness, in a zip."],
+  ],
+});
+
+export type PageWords = ReturnType<typeof pageWords>;

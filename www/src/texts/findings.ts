@@ -1,0 +1,125 @@
+/** Texts of the findings, fetched with their panel. */
+import type { Code, Finding, Printability, Severity } from "../api/wire.js";
+import type { Format } from "./format.js";
+import { room, type Tree } from "./messages.js";
+
+const FINDINGS = {
+  checking: "Checking the layers …",
+  /** Shown if there are no findings. */
+  none: "Nothing was found that would fail.",
+  verdicts: { ok: "Can be printed like this", review: "Worth a look before it is printed", reject: "Will not print like this" },
+  severities: { ignore: "for information", review: "worth a look", reject: "will fail" },
+  kinds: {
+    island: "Islands",
+    "loose-body": "Loose bodies",
+    "separate-body": "Separate bodies",
+    speck: "Specks",
+    overhang: "Overhangs",
+    cup: "Suction cups",
+    trap: "Trapped resin",
+    "small-escape": "Narrow escapes",
+    "thin-wall": "Thin walls",
+    "thin-floor": "Thin floors",
+    "narrow-gap": "Narrow gaps",
+    "small-hole": "Small holes",
+    "low-gap": "Low gaps",
+    "peel-area": "Large layers",
+    "peel-jump": "Sudden growth",
+    "small-contact": "Little contact with the plate",
+  },
+  /** Explanation of each kind. */
+  sentences: {
+    island: "Nothing is below it in layer {first}, and it joins the rest in layer {joins}, with {volume} by then.",
+    "loose-body": "A body of {volume} touches neither the plate nor another body.",
+    "separate-body": "A body of {volume} on the plate touches no other.",
+    speck: "A few pixels touch nothing, {area} in {layers|one:# layer|other:# layers}.",
+    overhang: "{area} reach out by more than {limit}, too flat to support themselves.",
+    cup: "A hollow of {resin} is open only away from the plate, and sucks with up to {area}.",
+    trap: "{resin} of resin are enclosed.",
+    "small-escape": "{resin} of resin or more leave a hollow only through openings narrower than {limit}.",
+    "thin-wall": "A wall is thinner than {limit} over {volume}.",
+    "thin-floor": "A floor is thinner than {limit} along z over {area}.",
+    "narrow-gap": "A gap is narrower than {limit} over {volume} and may close.",
+    "small-hole": "A hole is smaller than {limit} over {volume} and may close.",
+    "low-gap": "A gap is lower than {limit} along z over {area} and may close.",
+    "peel-area": "The layer has {area} to peel off, more than {limit}.",
+    "peel-jump": "The layer has {area} more to peel off than the one below, more than {limit}.",
+    "small-contact": "Only {area} hold the print on the plate, less than {limit} of its largest layer.",
+  },
+  /** Advice on each kind. */
+  advice: {
+    island: "Support it, or turn the model.",
+    "loose-body": "Support it, join it, or leave it out.",
+    "separate-body": "Join them if they are meant to be one.",
+    speck: "Remove them from the model.",
+    overhang: "Support them, or turn the model.",
+    cup: "Make a hole near the plate, or turn the model.",
+    trap: "Make two holes to drain them.",
+    "small-escape": "Widen them, or add one.",
+    "thin-wall": "Make it thicker, or the model larger.",
+    "thin-floor": "Make it thicker, or the model larger.",
+    "narrow-gap": "Make it wider, or the model larger.",
+    "small-hole": "Make it wider, or the model larger.",
+    "low-gap": "Make it higher, or turn the model.",
+    "peel-area": "Turn the model, or hollow it.",
+    "peel-jump": "Turn the model.",
+    "small-contact": "Put it on a raft, or turn it.",
+  },
+  layers: "layers {first} to {last}",
+  layer: "layer {number}",
+  /** Label of the button that shows all findings of a kind. */
+  all: "Show all {count}",
+  /** Number of smaller findings of a kind that are not listed. */
+  smaller: "And {count} smaller ones.",
+  /** Explains the effect of choosing a finding. */
+  hint: "Choose one to see where it is. Escape ends that.",
+  /** Label of the switch that colours the model by wall thickness. */
+  walls: "Show wall thickness",
+  /** Explains the colours and the marked areas. */
+  wallsHint: "Colours the model by how thick it is straight under each place. Stripes mark what is thinner than {limit}.",
+} as const satisfies {
+  verdicts: Record<Printability["verdict"], string>;
+  severities: Record<Severity, string>;
+  kinds: Record<Code, string>;
+  sentences: Record<Code, string>;
+  advice: Record<Code, string>;
+} & Tree;
+
+export const findingsTexts = room("check", FINDINGS);
+
+export type FindingsTexts = ReturnType<typeof findingsTexts>;
+
+/** Formatted figures of a finding. */
+export interface Said {
+  readonly area: string;
+  readonly volume: string;
+  /** The volume as an amount of resin. */
+  readonly resin: string;
+  /** The limit with its unit. */
+  readonly limit: string;
+  /** First layer, counted from 1. */
+  readonly first: string;
+  readonly joins: string;
+  /** Number of layers. */
+  readonly layers: number;
+}
+
+export function saidOf({ code, area_mm2, volume_mm3, limit, layers: [first, last], joins_layer }: Finding, format: Format): Said {
+  return {
+    area: `${figure(area_mm2, format)}\u00a0mm²`,
+    volume: `${figure(volume_mm3, format)}\u00a0mm³`,
+    resin: format.millilitres(volume_mm3 / 1000),
+    limit: limitOf(code, limit, format),
+    first: format.count(first + 1),
+    joins: format.count((joins_layer ?? last + 1) + 1),
+    layers: last + 1 - first,
+  };
+}
+
+/** Formats a figure with four significant digits. */
+const figure = (value: number, format: Format): string => format.exact(Number(value.toPrecision(4)));
+
+function limitOf(code: Code, limit: number, format: Format): string {
+  if (code === "small-contact") return format.percent(limit, 1);
+  return code === "peel-area" || code === "peel-jump" ? `${format.exact(limit)}\u00a0mm²` : format.mm(limit);
+}

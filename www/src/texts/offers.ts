@@ -1,0 +1,14 @@
+/** Labels of offers. */
+
+export const offers = {
+  tolerance: "Tolerance {error}",
+  layersFrom: "Layers from {thickness}",
+  rays: "{count} rays",
+  scale: "Scale to {height}",
+  uniform: "Uniform layers of {thickness}",
+  bestUniform: "Uniform layers of {thickness} ({layers|one:# layer|other:# layers})",
+  images: "Save as images",
+  noPrinter: "Without a printer",
+  unit: "It is in {unit|settings.units}",
+  again: "Try again",
+} as const;

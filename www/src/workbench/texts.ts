@@ -1,0 +1,48 @@
+/** The texts of the workbench around the panels. */
+import { room } from "../texts/messages.js";
+
+export const workbenchWords = room("workbench", {
+  /** Label of the buttons for sheets other than steps. */
+  choices: "Look into the result",
+  /** Label of the row of tabs. */
+  answers: "What comes out",
+  mask: "Mask",
+  result: "Result",
+  /** Label of the button that opens the sheet with the result. */
+  more: "Show the result",
+  /** Label of the slider next to the view. */
+  layer: "Layer in the view",
+  /** Exposure of a layer of this thickness. */
+  exposure: "{seconds} of light for {thickness}",
+  /** Label of the row of steps. */
+  path: "Steps",
+  steps: { turn: "Turn", check: "Check", hollow: "Hollow", support: "Support", slice: "Slice" },
+  /** Purpose of each step. */
+  hints: {
+    turn: "How the model lies decides what needs support, and how long it prints.",
+    check: "What would fail in print, and where it is.",
+    hollow: "A hollow model takes less resin and pulls less at the film.",
+    support: "Whatever begins in the air or leans far out needs a support.",
+    slice: "Say what you print with.",
+  },
+  back: "Back",
+  next: "Next: {step}",
+  /** Labels of buttons that activate a tool of the view. */
+  byHand: { rotate: "Turn by hand", drains: "Place holes by hand", supports: "Place points by hand" },
+  /** Replaces features that a slicer for filament printers has itself. */
+  filament: "Slicers of filament printers do this themselves.",
+  /** Progress of each step in a few words. */
+  states: {
+    asFile: "As in the file",
+    turned: "Turned",
+    unchecked: "Not checked",
+    verdicts: { ok: "Nothing found", review: "Worth a look", reject: "Will fail" },
+    solid: "Solid",
+    walls: "Walls of {thickness}",
+    supports: "{strength}, {points|one:# point|other:# points}",
+    /** Number of points that no support reaches. */
+    missing: "{points|one:# point|other:# points} without a support",
+    /** A field of the step is invalid. */
+    wrong: "To be corrected",
+  },
+});
