@@ -2,6 +2,7 @@ import { defineConfig, type Plugin } from "vite";
 import { fileURLToPath } from "node:url";
 import { anyLanguage } from "./package/any-language.js";
 import { crateParts, noticesOf, npmParts } from "./package/bill.js";
+import { dictionaries } from "./package/dictionaries.js";
 
 /**
  * Policy with which the browser enforces that a model never leaves the computer: scripts, workers and requests only from the page's own
@@ -89,7 +90,7 @@ function notices(): Plugin {
 export default defineConfig({
   // Relative URLs, so that the folder works under any path of any host.
   base: "./",
-  plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), notices(), anyLanguage],
+  plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), notices(), anyLanguage, dictionaries(new URL(".", import.meta.url))],
   // Prebundling by the development server would bypass the plugin.
   optimizeDeps: { exclude: ["uplot"] },
   worker: { format: "es" },

@@ -13,6 +13,7 @@ import { gzipSync } from "node:zlib";
 import { rolldown, type OutputChunk, type Plugin } from "rolldown";
 import { anyLanguage } from "./any-language.js";
 import { bill, crateParts, noticesOf, npmParts } from "./bill.js";
+import { dictionaries } from "./dictionaries.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
@@ -37,6 +38,9 @@ const FRAMEWORKS = {
   vue: ["vue"],
   svelte: ["svelte"],
 } as const;
+
+/** Messages of the page, which is not in the package. */
+const PAGE_ROOMS = /^(page|print|visit|workbench)\./;
 
 const WASM = "cusp_slicer_bg.wasm";
 
@@ -91,7 +95,7 @@ async function bundle(input: Readonly<Record<string, string>>, isOneFile = false
     cwd: root,
     input,
     platform: "browser",
-    plugins: [flatAddresses, inlineStyles, noGlobals, anyLanguage, onServers],
+    plugins: [flatAddresses, inlineStyles, noGlobals, anyLanguage, onServers, dictionaries(new URL("..", import.meta.url), PAGE_ROOMS)],
     resolve: { conditionNames: ["production", "browser", "import", "default"] },
     transform: { target: "es2022" },
   });
