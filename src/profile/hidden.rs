@@ -3,6 +3,7 @@
 //! On a facet the visible part ends where another facet passes through it. Between the heights of such creases it is therefore
 //! visible all along or nowhere, and the rays that meet it there show which.
 
+use std::ops::Range;
 use std::sync::atomic::AtomicU8;
 use std::sync::atomic::Ordering::Relaxed;
 
@@ -43,18 +44,24 @@ impl Hidden {
         self,
         facet_bins: &FacetBins,
         partly_inside: &[u32],
-        creases: Vec<(u32, [u32; 2])>,
+        mut creases: Vec<(u32, [u32; 2])>,
         image: RayImage<'_>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         let count = facet_bins.spans.len();
-        let creases = FacetSpans::new(count, creases);
+        creases.sort_unstable();
+        let creases_on = |facet: usize| {
+            let first = creases.partition_point(|crease| (crease.0 as usize) < facet);
+            let on_facet = creases[first..].iter();
+            let on_facet = on_facet.take_while(move |crease| crease.0 as usize == facet);
+            on_facet.map(|&(_, span)| span)
+        };
         let sloping = partly_inside.iter().map(|&facet| facet as usize);
         // Rays meet no upright facet, and it raises no largest `n_z²`.
         let sloping = sloping.filter(|&facet| facet_bins.n_z_squared[facet] > 0.0);
         let between = sloping.flat_map(|facet| {
             let span = facet_bins.spans[facet];
-            rest(span, creases.of(facet)).map(move |part| (facet as u32, part))
+            rest(span, creases_on(facet)).map(move |part| (facet as u32, part))
         });
         let parts = FacetSpans::new(count, between.collect());
         if parts.spans.is_empty() {
@@ -64,9 +71,13 @@ impl Hidden {
         let look = |(): &mut (), rays: Rays<'_>| {
             let model_end = rays.classes.model_end();
             for hits in rays.each() {
+                // Few rays meet a facet in question.
+                if hits.iter().all(|hit| parts.range(hit.facet()).is_empty()) {
+                    continue;
+                }
                 each_of_model(hits, model_end, |hit, is_inside| {
                     let bin = facet_bins.bins.of(f64::from(hit.z_mm)) as u32;
-                    if let Some(part) = parts.at(hit.facet() as usize, bin) {
+                    if let Some(part) = parts.at(hit.facet(), bin) {
                         let note = if is_inside { INSIDE } else { ON_SURFACE };
                         seen[part].fetch_or(note, Relaxed);
                     }
@@ -101,23 +112,25 @@ impl Hidden {
 
     /// Returns true if a part of a facet is hidden that meets this bin.
     #[inline]
-    pub fn hides_part(&self, facet: usize, bin: u32) -> bool {
+    pub fn hides_part(&self, facet: u32, bin: u32) -> bool {
         self.parts.at(facet, bin).is_some()
     }
 
     /// The bins of `span` in which a facet is visible, which is not wholly hidden.
     #[inline]
-    pub fn seen_in(&self, facet: usize, span: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
-        rest(span, self.parts.of(facet))
+    pub fn seen_in(&self, facet: u32, span: [u32; 2]) -> impl Iterator<Item = [u32; 2]> {
+        rest(span, self.parts.of(facet).iter().copied())
     }
 }
 
 /// The bins of `span` without those of `taken`, which are in ascending order and may overlap.
 #[inline]
-fn rest([mut from, last]: [u32; 2], taken: &[[u32; 2]]) -> impl Iterator<Item = [u32; 2]> {
+fn rest(
+    [mut from, last]: [u32; 2],
+    taken: impl Iterator<Item = [u32; 2]>,
+) -> impl Iterator<Item = [u32; 2]> {
     let end = last + 1;
-    let taken = taken.iter().copied().chain([[end; 2]]);
-    taken.filter_map(move |[first, last]| {
+    taken.chain([[end; 2]]).filter_map(move |[first, last]| {
         let gap = [from, first.min(end)];
         from = from.max(last + 1);
         (gap[0] < gap[1]).then(|| [gap[0], gap[1] - 1])
@@ -153,29 +166,29 @@ impl FacetSpans {
     }
 
     #[inline]
-    fn range(&self, facet: usize) -> std::ops::Range<usize> {
-        match self.starts.get(facet..) {
+    fn range(&self, facet: u32) -> Range<usize> {
+        match self.starts.get(facet as usize..) {
             Some(&[start, end, ..]) => start as usize..end as usize,
             _ => 0..0,
         }
     }
 
     #[inline]
-    fn of(&self, facet: usize) -> &[[u32; 2]] {
+    fn of(&self, facet: u32) -> &[[u32; 2]] {
         &self.spans[self.range(facet)]
     }
 
     /// The place of the span of a facet that has this bin.
     #[inline]
-    fn at(&self, facet: usize, bin: u32) -> Option<usize> {
+    fn at(&self, facet: u32, bin: u32) -> Option<usize> {
         let mut places = self.range(facet);
         places.find(|&place| (self.spans[place][0]..=self.spans[place][1]).contains(&bin))
     }
 
     /// Each span with its facet.
     fn each(&self) -> impl Iterator<Item = (u32, [u32; 2])> {
-        let facets = 0..self.starts.len().saturating_sub(1);
-        facets.flat_map(|facet| self.of(facet).iter().map(move |&span| (facet as u32, span)))
+        let facets = 0..self.starts.len().saturating_sub(1) as u32;
+        facets.flat_map(|facet| self.of(facet).iter().map(move |&span| (facet, span)))
     }
 }
 
@@ -185,7 +198,10 @@ mod tests {
 
     #[test]
     fn the_rest_of_a_span_is_what_no_other_takes() {
-        let rest = |span, taken: &[[u32; 2]]| rest(span, taken).collect::<Vec<_>>();
+        let rest = |span, taken: &[[u32; 2]]| {
+            let left = rest(span, taken.iter().copied());
+            left.collect::<Vec<_>>()
+        };
         assert_eq!(rest([3, 9], &[]), [[3, 9]]);
         assert_eq!(rest([3, 9], &[[5, 6]]), [[3, 4], [7, 9]]);
         assert_eq!(rest([3, 9], &[[0, 3], [9, 12]]), [[4, 8]]);

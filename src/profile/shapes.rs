@@ -71,7 +71,7 @@ impl Shapes {
         if !hidden.is_by_facets() {
             let seen = |cone: &Cone| {
                 let cone = *cone;
-                let spans = hidden.seen_in(cone.facet as usize, cone.span);
+                let spans = hidden.seen_in(cone.facet, cone.span);
                 spans.map(move |span| Cone { span, ..cone })
             };
             cones = cones.iter().flat_map(seen).collect();

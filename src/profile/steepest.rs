@@ -53,11 +53,10 @@ pub(super) fn sampled_maxima(
     let is_by_facets = hidden.is_by_facets();
     let add = |maxima: &mut Vec<f32>, rays: Rays<'_>| {
         for hit in rays.hits {
-            let facet = hit.facet() as usize;
             // The facets after these only close the surface.
-            if let Some(&value) = values.get(facet) {
+            if let Some(&value) = values.get(hit.facet() as usize) {
                 let bin = bins.of(f64::from(hit.z_mm));
-                if is_by_facets || !hidden.hides_part(facet, bin as u32) {
+                if is_by_facets || !hidden.hides_part(hit.facet(), bin as u32) {
                     raise(&mut maxima[bin], value);
                 }
             }
@@ -100,7 +99,7 @@ pub(super) fn exact_maxima(
         if is_by_facets {
             raise(span);
         } else {
-            hidden.seen_in(facet, span).for_each(raise);
+            hidden.seen_in(facet as u32, span).for_each(raise);
         }
     }
     maxima.into_values()
