@@ -173,7 +173,7 @@ fn hollowing() -> Work {
 fn supporting() -> Work {
     let mesh = mesh(5);
     Box::new(move || {
-        let supports = support(&mesh, &Supporting::default(), None, &mut silent);
+        let supports = support(&mesh, &Supporting::default(), None, 0.0, &mut silent);
         drop(black_box(supports.expect("no failure")));
     })
 }

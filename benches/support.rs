@@ -50,7 +50,7 @@ fn strengths(models: &[(String, Mesh)]) {
                 strength,
                 ..Supporting::default()
             };
-            let work = || support(mesh, &supporting, None, &mut silent).expect("no failure");
+            let work = || support(mesh, &supporting, None, 0.0, &mut silent).expect("no failure");
             let before = ALLOCATOR.current_usage();
             ALLOCATOR.reset_peak_usage();
             drop(work());

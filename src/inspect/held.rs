@@ -9,8 +9,11 @@ use crate::argsort::sort_by_number;
 pub struct Held {
     /// Contacts: x, y and z in millimetres, as in findings.
     pub contacts_mm: Vec<[f64; 3]>,
-    /// Distance, sideways and upward, within which each contact holds a surface that is too flat to support itself.
+    /// Distance within which each contact holds a surface that is too flat to support itself: sideways within the lit
+    /// pixels, and upward.
     pub reach_mm: f64,
+    /// Tops of pillars in voids, and the distance up to which each holds the ceiling.
+    pub ceilings_mm: Vec<([f64; 3], f64)>,
     /// Radius of a tip. Walls and gaps within it are its own.
     pub tip_reach_mm: f64,
     /// Length of a tip down from its contact.
@@ -31,11 +34,6 @@ pub(super) struct Holds {
 }
 
 impl Holds {
-    /// Surfaces that contacts hold.
-    pub fn of_surfaces(held: &Held, frame: &Frame<'_>) -> Self {
-        Self::new(&held.contacts_mm, held.reach_mm, 0.0, frame)
-    }
-
     /// The tips.
     pub fn of_tips(held: &Held, frame: &Frame<'_>) -> Self {
         Self::new(&held.contacts_mm, held.tip_reach_mm, held.tip_mm, frame)

@@ -69,7 +69,7 @@ impl Default for Limits {
             // 19° from level.
             self_supporting_slope: 0.344,
             overhang_mm: 1.0,
-            bridge_mm: 21.0,
+            bridge_mm: 5.0,
             cup_mm2: 1.0,
             trap_ml: 0.001,
             escape_mm: 2.0,
@@ -150,6 +150,29 @@ impl Default for Severities {
 }
 
 impl Severities {
+    /// Looks for pieces that begin with nothing below them, and for nothing else.
+    pub(super) const FLOATING: Self = {
+        let rest = Severity::Ignore;
+        Self {
+            island: Severity::Review,
+            loose_body: Severity::Review,
+            separate_body: rest,
+            speck: rest,
+            overhang: rest,
+            cup: rest,
+            trap: rest,
+            small_escape: rest,
+            thin_wall: rest,
+            thin_floor: rest,
+            narrow_gap: rest,
+            small_hole: rest,
+            low_gap: rest,
+            peel_area: rest,
+            peel_jump: rest,
+            small_contact: rest,
+        }
+    };
+
     /// The severity of a kind of finding.
     pub fn of(&self, code: Code) -> Severity {
         match code {

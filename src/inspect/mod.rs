@@ -22,6 +22,7 @@ mod overhang;
 mod peel;
 mod regions;
 mod rows;
+mod surfaces;
 mod sweep;
 mod thickness;
 
@@ -80,6 +81,30 @@ pub struct Printability {
     pub bodies: usize,
     /// Areas to be peeled off the film, layer by layer.
     pub peel: Peel,
+}
+
+/// Least volume of a piece that floats in the vat, in mm³. Smaller ones are flakes that the next layer catches.
+const FLOATING_MM3: f64 = 0.5;
+
+/// Pieces that begin with nothing below them and grow by more than a flake before they join what stands on the plate, from the largest down.
+///
+/// Cost: that of [`inspect`] for islands alone.
+///
+/// # Errors
+/// [`Cancelled`].
+pub fn floating(
+    masks: &Masks,
+    plan: &Plan,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<Finding>, Cancelled> {
+    let limits = Limits {
+        severity: Severities::FLOATING,
+        ..Limits::default()
+    };
+    let mut findings = inspect(masks, plan, &limits, &Held::default(), progress)?.findings;
+    findings.retain(|it| it.volume_mm3 >= FLOATING_MM3);
+    findings.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    Ok(findings)
 }
 
 /// Checks the masks of a plan, which must be seen from above. Surfaces near the contacts of supports are no overhangs, and

@@ -10,11 +10,12 @@ use super::bridges::Bridges;
 use super::collect::{Collector, Frame};
 use super::components::Components;
 use super::finding::Code;
-use super::held::{Held, Holds};
+use super::held::Held;
 use super::layer::Layer;
 use super::limits::Limits;
 use super::regions::Regions;
 use super::rows::{Disc, Rest, Rows, Span};
+use super::surfaces::Surfaces;
 
 /// Width that the least self-supporting slope spans in a layer, in pixels.
 pub(super) fn width(layer: usize, frame: &Frame<'_>, limits: &Limits) -> Disc {
@@ -69,13 +70,13 @@ pub(super) struct Overhangs {
     supported: Rows,
     regions: Regions,
     rest: Rest,
-    holds: Holds,
+    surfaces: Surfaces,
 }
 
 impl Overhangs {
     pub fn new(frame: &Frame<'_>, limits: &Limits, held: &Held) -> Self {
         Self {
-            holds: Holds::of_surfaces(held, frame),
+            surfaces: Surfaces::new(held, frame),
             reach: Disc::new(limits.overhang_mm, frame.grid),
             bridges: Bridges::new(limits.bridge_mm, frame.grid),
             unsupported: None,
@@ -92,9 +93,10 @@ impl Overhangs {
             .map(|below| self.carried(layer, &below));
         let mut unsupported = carried.unwrap_or_else(|| layer.flat.clone());
         let mut found = Rows::default();
-        self.holds.take_from(&mut unsupported, layer.number, frame);
+        let lit = &layer.alone.lit.rows;
+        self.surfaces
+            .take_from(&mut unsupported, lit, layer.number, frame);
         if !unsupported.is_blank() {
-            let lit = &layer.alone.lit.rows;
             self.supported = lit.without(&unsupported);
             found = self
                 .rest

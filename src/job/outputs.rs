@@ -14,7 +14,7 @@ use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress, report};
 use super::{Error, Job, JobOptions, Report, Tradeoff};
 use crate::arrange::{self, ArrangeError, TURN_DEG};
-use crate::inspect::{self, Limits, Printability, Verdict};
+use crate::inspect::{self, Finding, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
 use crate::model::{FacetClass, Mesh};
 use crate::plan::Plan;
@@ -241,6 +241,19 @@ impl Job {
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
         self.plate_mut(plate)?.write_file(encoded, writer, progress)
+    }
+
+    /// Pieces of supported models that would float in the vat, from the largest down: they begin with nothing below them.
+    ///
+    /// # Errors
+    /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.
+    pub fn floating(
+        &mut self,
+        plate: usize,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Vec<Finding>, Error> {
+        let mut within = |fraction| progress(Stage::Inspect, fraction);
+        self.plate_mut(plate)?.floating(&mut within)
     }
 
     /// Findings on each model of a plate, by these limits: each is checked as if it stood alone, in the layers of the plate.

@@ -192,10 +192,12 @@ impl Job {
     ) -> Sampling {
         let own = options.of_model(model);
         let shared = resolved.sampling.clone();
+        let supports = own.supports.or(shared.supports);
         Sampling {
             pose: self.pose_of(options, resolved, model).turned(turns),
             hollow: own.hollow.or(shared.hollow),
-            supports: own.supports.or(shared.supports),
+            wider_mm: resolved.layering.support_wider_mm(supports.is_some()),
+            supports,
             ..shared
         }
     }

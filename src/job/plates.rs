@@ -6,7 +6,7 @@ use std::sync::Arc;
 use web_time::Instant;
 
 use super::stages::parts::Output;
-use super::stages::planned::Planned;
+use super::stages::planned::{Planned, PlannedModel};
 use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress, ms_since};
 use super::{Error, Report};
@@ -15,6 +15,8 @@ use crate::archive::{
     self, Canvas, GROUP, Layer, MaskSource, PlacedMesh, PreviewScene, PrintJob, Screen,
 };
 use crate::format::Format;
+use crate::inspect::{self, Finding};
+use crate::ldi::LdiError;
 use crate::mask::{LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp};
 use crate::progress::Progress;
 
@@ -37,6 +39,28 @@ impl Plate {
     fn are_all_held(&self) -> bool {
         let mut models = self.planned.models.iter();
         models.all(|model| model.sampled().bound().is_none())
+    }
+
+    /// Pieces of a supported model that would float in the vat, from the largest down. Without all hits in memory nothing is
+    /// looked for.
+    ///
+    /// # Errors
+    /// [`Error::Ldi`] if `progress` cancels.
+    pub fn floating(&mut self, progress: &mut Progress<'_>) -> Result<Vec<Finding>, Error> {
+        let planned = Arc::clone(&self.planned);
+        let is_supported = |model: &PlannedModel| model.sampled().is_supported();
+        if !self.are_all_held() || !planned.models.iter().any(is_supported) {
+            return Ok(Vec::new());
+        }
+        let (masks, _) = self.seen()?;
+        let mut found = Vec::new();
+        for (model, stamp) in planned.models.iter().zip(&masks.stamps) {
+            if is_supported(model) {
+                let floating = inspect::floating(&stamp.masks, &planned.plan, progress);
+                found.extend(floating.map_err(LdiError::from)?);
+            }
+        }
+        Ok(found)
     }
 
     /// The screen that shows its masks.

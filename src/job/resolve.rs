@@ -32,9 +32,12 @@ impl Options {
     fn resolve_settled(&self) -> Result<Resolved, Error> {
         let printer = find_printer(self.printer.as_ref())?;
         let filament = self.check_filament(printer.as_deref())?;
+        let layering = self.layering(printer.as_deref())?;
+        let mut sampling = self.sampling(printer.as_deref())?;
+        sampling.wider_mm = layering.support_wider_mm(self.supports.is_some());
         Ok(Resolved {
-            layering: self.layering(printer.as_deref())?,
-            sampling: self.sampling(printer.as_deref())?,
+            layering,
+            sampling,
             output: Output {
                 format: self
                     .format
@@ -102,6 +105,7 @@ impl Options {
         Ok(Sampling {
             hollow: self.hollow.clone(),
             supports: self.supports.clone(),
+            wider_mm: 0.0,
             pose: Pose {
                 rotation: self.rotation,
                 height_mm: self.height_mm,

@@ -200,18 +200,24 @@ pub(super) fn bore(shell: &Shell, drain: &Drain, bounds: &Bounds) -> Option<(She
     Some((bore.shell(begin_mm, depth_mm, bounds), depth_mm))
 }
 
-/// Marks the points that are in a hole, or no farther from it than a margin.
-pub(super) fn mark(drain: &Drain, points: &[Vec3], margin_mm: f64, marks: &mut [bool]) {
-    let Some(bore) = Bore::new(drain) else {
-        return;
-    };
-    let depth_mm = drain.depth_mm.unwrap_or_default();
-    for (point, mark) in points.iter().zip(marks) {
-        let from = point.as_dvec3() - bore.at;
-        let along_mm = from.dot(bore.along);
-        let away_mm = (from - bore.along * along_mm).length();
-        *mark |= (-drain.diameter_mm..=depth_mm + margin_mm).contains(&along_mm)
-            && away_mm <= drain.diameter_mm / 2.0 + margin_mm;
+/// Returns true for points that are in a hole, or no farther from it than a margin. Holes without a depth are taken to be as deep as
+/// `depth_mm`.
+pub(super) fn within(
+    drain: &Drain,
+    depth_mm: f64,
+    margin_mm: f64,
+) -> impl Fn(Vec3) -> bool + use<> {
+    let bore = Bore::new(drain);
+    let depth_mm = drain.depth_mm.unwrap_or(depth_mm);
+    let diameter_mm = drain.diameter_mm;
+    move |point| {
+        bore.as_ref().is_some_and(|bore| {
+            let from = point.as_dvec3() - bore.at;
+            let along_mm = from.dot(bore.along);
+            let away_mm = (from - bore.along * along_mm).length();
+            (-diameter_mm..=depth_mm + margin_mm).contains(&along_mm)
+                && away_mm <= diameter_mm / 2.0 + margin_mm
+        })
     }
 }
 

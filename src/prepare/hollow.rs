@@ -19,6 +19,7 @@ use super::drain::{self, AutoDrain, Drain};
 use super::joined::{Closed, Joined, closed_of, joined};
 use super::lattice::Lattice as Struts;
 use super::lengths::{self, BadLength};
+use super::pillars::{Ceilings, Pillar};
 use super::pits;
 use super::shell::Shell;
 use super::surface;
@@ -43,6 +44,8 @@ pub struct Hollowing {
     /// Struts that are left standing in the void.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub infill: Option<Infill>,
+    /// True if pillars hold ceilings of the void that are wider than a bridge of 5 mm.
+    pub pillars: bool,
     /// Drain holes.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     pub drains: Vec<Drain>,
@@ -58,6 +61,7 @@ impl Default for Hollowing {
             wall_mm: 2.0,
             cavity_mm: 2.0,
             infill: None,
+            pillars: true,
             drains: Vec::new(),
             auto_drain: None,
         }
@@ -142,6 +146,8 @@ impl Hollowing {
 pub struct Void {
     /// Its surface, without drain holes.
     pub shell: Shell,
+    /// Pillars that hold its ceilings.
+    pub pillars: Vec<Pillar>,
     /// Each drain hole that meets it, and its surface.
     pub drains: Vec<(Drain, Shell)>,
     /// Drain holes that meet no void, by their places among those asked for.
@@ -247,14 +253,16 @@ pub fn hollow(
     let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 4;
     let most_mm = reach_mm + 2.0 * lattice.spacing_mm;
     let group = slices_at_a_time(&model);
-    let mut nets = Nets::new(lattice);
     let mut basins = Basins::new(
         lattice.width,
         lattice.width * lattice.height,
         lattice.spacing_mm,
     );
+    let mut field = Field::default();
+    // Columns of nodes that pass a cavity, in which nothing stands.
+    let mut is_cavity = vec![false; lattice.width * lattice.height];
     for from in (0..slices).step_by(group) {
-        report(progress, 0.6 + 0.4 * from as f64 / slices as f64)?;
+        report(progress, 0.6 + 0.3 * from as f64 / slices as f64)?;
         let these = from..(from + group).min(slices);
         let heights_mm: Vec<f32> = these
             .clone()
@@ -265,16 +273,56 @@ pub fn hollow(
             joined.distances_mm(To::Outside, &heights_mm, most_mm, STRIDE)
         });
         let mut within = within.into_iter();
-        for (mut field, slice) in distances.into_iter().zip(these) {
-            depths(&mut field, reach_mm, within.next(), model.pitch_mm);
-            if let Some(struts) = &struts {
-                leave_standing(struts, &lattice, slice, &mut field);
+        for (mut depths_mm, slice) in distances.into_iter().zip(these) {
+            let within = within.next();
+            for (is_cavity, within_mm) in is_cavity.iter_mut().zip(within.iter().flatten()) {
+                *is_cavity |= *within_mm > 0.0;
             }
+            depths(&mut depths_mm, reach_mm, within, model.pitch_mm);
+            field.push(&depths_mm, reach_mm - most_mm);
             if hollowing.auto_drain.is_some() {
-                basins.add(&field);
+                if let Some(struts) = &struts {
+                    leave_standing(struts, &lattice, slice, &mut depths_mm);
+                }
+                basins.add(&depths_mm);
             }
-            nets.add(field);
         }
+    }
+    let (mut automatic, mut undrained) = (Vec::new(), 0);
+    if let Some(hole) = hollowing.auto_drain {
+        // A hole as wide as the model would remove all of it.
+        let is_small = hole.diameter_mm < size.min_element();
+        // The radius that the hole cuts away, or the resolution of the columns if that is larger.
+        let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
+        let is_protected =
+            surface::protected_within(mesh, weights.filter(|_| hole.protect), reach_mm);
+        for (slice, node) in basins.finish() {
+            report(progress, 0.9)?;
+            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
+            let place = || drain::place(&model, &lattice, lowest_mm, hole, &is_protected);
+            match is_small.then(place).flatten() {
+                Some(drain) => automatic.push(drain),
+                None => undrained += 1,
+            }
+        }
+    }
+    let mut standing = Standing {
+        lattice,
+        struts,
+        pillars: Vec::new(),
+        holes: hollowing.drains.iter().chain(&automatic).copied().collect(),
+        hole_mm: 2.0 * f64::from(depth_mm.unwrap_or(half_mm)),
+        below: Vec::new(),
+    };
+    if hollowing.pillars && !hollowing.drains_alone() {
+        standing.hold_ceilings(&field, &is_cavity, progress)?;
+    }
+    let mut nets = Nets::new(lattice);
+    for slice in 0..slices {
+        report(progress, 0.95 + 0.05 * slice as f64 / slices as f64)?;
+        let mut depths_mm = field.slice(slice);
+        standing.leave(slice, &mut depths_mm);
+        nets.add(depths_mm);
     }
     let shell = nets.finish();
     report(progress, 1.0)?;
@@ -283,67 +331,28 @@ pub fn hollow(
     }
     let mut void = Void {
         shell,
+        pillars: standing.pillars,
         drains: Vec::new(),
         astray: Vec::new(),
-        undrained: 0,
+        undrained,
         resolution_mm: pitch_mm,
         closed: closed_of(&cavities, &closed, &lattice, model.pitch_mm),
     };
-    void.drill_all(&hollowing.drains, &bounds, progress)?;
-    if let Some(hole) = hollowing.auto_drain {
-        // A hole as wide as the model would remove all of it.
-        let is_small = hole.diameter_mm < size.min_element();
-        // The radius that the hole cuts away, or the resolution of the columns if that is larger.
-        let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
-        let is_protected =
-            surface::protected_within(mesh, weights.filter(|_| hole.protect), reach_mm);
-        let place = |lowest_mm| {
-            let drain =
-                is_small.then(|| drain::place(&model, &lattice, lowest_mm, hole, &is_protected));
-            drain.flatten()
-        };
-        void.drain(basins, &lattice, place, &bounds, progress)?;
+    for (place, drain) in hollowing.drains.iter().enumerate() {
+        report(progress, 1.0)?;
+        if !void.drill(drain, &bounds) {
+            void.astray.push(place);
+        }
+    }
+    for drain in &automatic {
+        report(progress, 1.0)?;
+        void.undrained += usize::from(!void.drill(drain, &bounds));
     }
     void.fill_pits(lattice.spacing_mm);
     Ok(Some(void))
 }
 
 impl Void {
-    /// Adds the drain holes that are asked for, and notes those that meet no void.
-    fn drill_all(
-        &mut self,
-        drains: &[Drain],
-        bounds: &Bounds,
-        progress: &mut Progress<'_>,
-    ) -> Result<(), LdiError> {
-        for (place, drain) in drains.iter().enumerate() {
-            report(progress, 1.0)?;
-            if !self.drill(drain, bounds) {
-                self.astray.push(place);
-            }
-        }
-        Ok(())
-    }
-
-    /// Adds the hole that `place` gives for the lowest point of each basin, and counts those that stay full.
-    fn drain(
-        &mut self,
-        basins: Basins,
-        lattice: &Lattice,
-        place: impl Fn(Vec3) -> Option<Drain>,
-        bounds: &Bounds,
-        progress: &mut Progress<'_>,
-    ) -> Result<(), LdiError> {
-        for (slice, node) in basins.finish() {
-            report(progress, 1.0)?;
-            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
-            if !place(lowest_mm).is_some_and(|drain| self.drill(&drain, bounds)) {
-                self.undrained += 1;
-            }
-        }
-        Ok(())
-    }
-
     /// Adds a drain hole; `false` if it does not meet the void.
     fn drill(&mut self, drain: &Drain, bounds: &Bounds) -> bool {
         let Some((shell, depth_mm)) = drain::bore(&self.shell, drain, bounds) else {
@@ -365,7 +374,10 @@ impl Void {
         let vertices = &self.shell.vertices;
         let mut outlets = vec![false; vertices.len()];
         for (drain, _) in &self.drains {
-            drain::mark(drain, vertices, spacing_mm.into(), &mut outlets);
+            let is_within = drain::within(drain, 0.0, spacing_mm.into());
+            for (&vertex, outlet) in vertices.iter().zip(&mut outlets) {
+                *outlet |= is_within(vertex);
+            }
         }
         pits::fill(&mut self.shell, PIT * spacing_mm, &outlets);
     }
@@ -402,6 +414,147 @@ fn leave_standing(struts: &Struts, lattice: &Lattice, slice: usize, field: &mut 
     for (place, field) in inside {
         let (column, row) = (place % lattice.width, place / lattice.width);
         *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
+    }
+}
+
+/// Depths in the void by slices, as runs of equal numbers: they differ only near its surface.
+#[derive(Default)]
+struct Field {
+    runs: Vec<(f32, u32)>,
+    /// The end of each slice in `runs`.
+    ends: Vec<usize>,
+}
+
+impl Field {
+    /// Appends a slice. Depths below `least_mm` are as good as that.
+    fn push(&mut self, depths_mm: &[f32], least_mm: f32) {
+        let from = self.runs.len();
+        for depth_mm in depths_mm.iter().map(|it| it.max(least_mm)) {
+            match self.runs[from..].last_mut() {
+                Some((last, count)) if *last == depth_mm => *count += 1,
+                _ => self.runs.push((depth_mm, 1)),
+            }
+        }
+        self.ends.push(self.runs.len());
+    }
+
+    fn slice(&self, slice: usize) -> Vec<f32> {
+        let from = slice.checked_sub(1).map_or(0, |before| self.ends[before]);
+        let runs = self.runs[from..self.ends[slice]].iter();
+        runs.flat_map(|&(depth_mm, count)| std::iter::repeat_n(depth_mm, count as usize))
+            .collect()
+    }
+}
+
+/// Struts and pillars that are left standing in a void.
+struct Standing {
+    lattice: Lattice,
+    struts: Option<Struts>,
+    pillars: Vec<Pillar>,
+    holes: Vec<Drain>,
+    /// Depth of holes that end where all of them is in the void.
+    hole_mm: f64,
+    /// Nodes of the last slice that are not void; none before the first.
+    below: Vec<bool>,
+}
+
+/// Least distance of a pillar's middle from a drain hole.
+const BESIDE_HOLE_MM: f64 = 1.0;
+
+impl Standing {
+    /// Adds the pillars that hold ceilings.
+    fn hold_ceilings(
+        &mut self,
+        field: &Field,
+        is_cavity: &[bool],
+        progress: &mut Progress<'_>,
+    ) -> Result<(), LdiError> {
+        let lattice = self.lattice;
+        let holes = self.holes.iter();
+        let is_in_hole = holes.map(|it| drain::within(it, self.hole_mm, BESIDE_HOLE_MM));
+        let is_in_hole: Vec<_> = is_in_hole.collect();
+        let is_blocked = |pillar: &Pillar| {
+            let node = (pillar.top_mm - lattice.origin_mm) / lattice.spacing_mm;
+            let node = (0.5 - node.y) as usize * lattice.width + (node.x + 0.5) as usize;
+            let steps = ((pillar.top_mm.z - pillar.bottom_mm) / lattice.spacing_mm) as usize + 1;
+            let mut at = (0..=steps).map(|step| {
+                pillar
+                    .top_mm
+                    .with_z(pillar.bottom_mm + step as f32 * lattice.spacing_mm)
+            });
+            is_cavity[node] || at.any(|at| is_in_hole.iter().any(|holds| holds(at)))
+        };
+        let mut ceilings = Ceilings::new(lattice);
+        let slices = field.ends.len();
+        for slice in 0..slices {
+            report(progress, 0.9 + 0.05 * slice as f64 / slices as f64)?;
+            let mut depths_mm = field.slice(slice);
+            self.leave(slice, &mut depths_mm);
+            ceilings.add(&depths_mm, &is_blocked);
+        }
+        self.below = Vec::new();
+        self.pillars = ceilings.pillars;
+        Ok(())
+    }
+
+    /// Takes what is left standing out of the void in the next slice: struts and pillars as far as they stand on something.
+    fn leave(&mut self, slice: usize, depths_mm: &mut [f32]) {
+        if self.struts.is_none() && self.pillars.is_empty() {
+            return;
+        }
+        let of_void = depths_mm.to_vec();
+        if let Some(struts) = &self.struts {
+            leave_standing(struts, &self.lattice, slice, depths_mm);
+        }
+        for pillar in &self.pillars {
+            pillar.leave_standing(&self.lattice, slice, depths_mm);
+        }
+        let Lattice { width, .. } = self.lattice;
+        let is_in_hole = |hole: &Drain| drain::within(hole, self.hole_mm, 0.0);
+        let holes: Vec<_> = self.holes.iter().map(is_in_hole).collect();
+        let node_mm = |node: usize| self.lattice.node_mm(node % width, node / width, slice);
+        let stands = |node: usize, depths_mm: &[f32]| {
+            of_void[node] > 0.0
+                && depths_mm[node] <= 0.0
+                && !holes.iter().any(|is_within| is_within(node_mm(node)))
+        };
+        let is_standing: Vec<bool> = (0..of_void.len()).map(|it| stands(it, depths_mm)).collect();
+        // Parts that nothing below holds are left out, where a hole cuts what stands.
+        let mut is_held = vec![false; of_void.len()];
+        let mut next: Vec<usize> = (0..of_void.len())
+            .filter(|&it| {
+                is_standing[it]
+                    && (self.below.is_empty() || self.around(it).any(|it| self.below[it]))
+            })
+            .collect();
+        for &node in &next {
+            is_held[node] = true;
+        }
+        while let Some(node) = next.pop() {
+            for beside in self.around(node) {
+                if is_standing[beside] && !is_held[beside] {
+                    is_held[beside] = true;
+                    next.push(beside);
+                }
+            }
+        }
+        for (node, depth_mm) in depths_mm.iter_mut().enumerate() {
+            if of_void[node] > 0.0 && *depth_mm <= 0.0 && !is_held[node] {
+                *depth_mm = of_void[node];
+            }
+        }
+        self.below = depths_mm.iter().map(|&it| it <= 0.0).collect();
+    }
+
+    /// A node and those around it.
+    fn around(&self, node: usize) -> impl Iterator<Item = usize> + use<> {
+        let Lattice { width, height, .. } = self.lattice;
+        let (column, row) = (node % width, node / width);
+        let rows = row.saturating_sub(1)..(row + 2).min(height);
+        rows.flat_map(move |row| {
+            let columns = column.saturating_sub(1)..(column + 2).min(width);
+            columns.map(move |column| row * width + column)
+        })
     }
 }
 

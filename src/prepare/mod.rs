@@ -11,6 +11,7 @@ mod hollow;
 mod joined;
 mod lattice;
 mod lengths;
+mod pillars;
 mod pits;
 mod plug;
 mod round;
@@ -24,6 +25,9 @@ pub(crate) use hollow::LEAST_WALL_MM;
 pub use hollow::{Hollowing, Infill, Void, hollow};
 pub use joined::Closed;
 pub(crate) use lengths::BadLength;
+pub use pillars::Pillar;
 pub use plug::plugs;
 pub use shell::Shell;
-pub use support::{SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support};
+pub use support::{
+    SupportLoad, SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
+};

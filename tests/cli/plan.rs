@@ -319,3 +319,31 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
         "expected a name that ends in .stl or .3mf",
     );
 }
+
+#[test]
+fn a_piece_that_floats_is_refused_by_slice() {
+    let folder = TempDir::new().unwrap();
+    let ball = sphere(&folder);
+    // No point of it is held.
+    let file = folder.path().join("none.json");
+    std::fs::write(&file, r#"{ "points": [] }"#).unwrap();
+    let output = folder.path().join("ball.zip");
+    let slice = |further: &[&str]| {
+        let paths = [&file, &output].map(|path| path.to_str().unwrap());
+        let usual = [
+            "slice",
+            &ball,
+            "--pitch",
+            "0.05",
+            "--supports",
+            paths[0],
+            "-o",
+            paths[1],
+        ];
+        on_cpu(&[&usual, further].concat())
+    };
+    assert_fails(&slice(&[]), 1, "a piece begins with nothing below");
+    assert!(!output.exists());
+    assert!(slice(&["--allow-floating"]).status.success());
+    assert!(output.exists());
+}

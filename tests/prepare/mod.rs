@@ -1,6 +1,7 @@
 //! Hollowing and drain holes against closed forms, naive distances and the checks.
 
 mod drain;
+mod held;
 mod hollow;
 mod jobs;
 mod support;

@@ -24,6 +24,8 @@ fn strict() -> Limits {
         cup_mm2: 0.0,
         trap_ml: 0.0,
         speck_px: 1,
+        // Roofs and ceilings of small boxes are bridges.
+        bridge_mm: 21.0,
         severity: Severities {
             separate_body: Severity::Review,
             ..Severities::default()

@@ -40,6 +40,9 @@ pub struct Slicing {
     /// Write the model as it prints, with its voids and supports: an .stl or .3mf for other programs
     #[arg(long, value_name = "FILE", value_parser = mesh_file, help_heading = "Model")]
     pub export: Option<PathBuf>,
+    /// Write print files of supported models in which pieces float in the vat, too
+    #[arg(long, help_heading = "Model")]
+    pub allow_floating: bool,
     /// Write a plug for each drain hole, to print and glue in once the resin is out: an .stl
     #[arg(long, value_name = "FILE", value_parser = stl_file, help_heading = "Model")]
     pub plugs: Option<PathBuf>,

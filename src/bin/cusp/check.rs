@@ -13,6 +13,7 @@ use crate::failure::{Failure, in_file};
 use crate::files::read_json;
 use crate::job::Printing;
 use crate::progress::Bar;
+use crate::slice::describe_supports;
 use crate::terminal::{print, print_json};
 use crate::watch::stop_on_interrupt;
 
@@ -132,6 +133,7 @@ fn describe(printability: &Printability, report: &Report, show: usize) -> String
         peel.jump_mm2,
         peel.jump_layer + 1,
     );
+    text += &describe_supports(report);
     for count in &printability.counts {
         let findings = printability.findings.iter();
         let findings = findings.filter(|finding| finding.code == count.code);

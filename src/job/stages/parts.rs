@@ -32,6 +32,8 @@ pub(crate) struct Sampling {
     pub pose: Pose,
     pub hollow: Option<Hollowing>,
     pub supports: Option<Supporting>,
+    /// Width by which supports are made wider on each side, as masks are narrower than what they print; 0 without any.
+    pub wider_mm: f64,
     pub raster: Raster,
     /// Height of the printer's build volume.
     pub greatest_height_mm: Option<f64>,
@@ -128,6 +130,17 @@ impl Output {
             Side::Below
         } else {
             Side::Above
+        }
+    }
+}
+
+impl Layering {
+    /// [`Sampling::wider_mm`] of a model with or without supports.
+    pub fn support_wider_mm(&self, has_supports: bool) -> f64 {
+        if has_supports {
+            self.growth.xy_mm.max(0.0)
+        } else {
+            0.0
         }
     }
 }

@@ -13,7 +13,9 @@ use crate::job::report::mesh_warnings;
 use crate::job::{Error, Timings};
 use crate::ldi::LdiError;
 use crate::model::{Bounds, FacetClass, Mesh, Pose, rotation_matrix};
-use crate::prepare::{self, Drain, Hollowing, SupportPoint, Supporting, Supports, Void};
+use crate::prepare::{
+    self, Drain, Hollowing, SupportLoad, SupportPoint, Supporting, Supports, Void,
+};
 use crate::progress::Progress;
 use crate::warning::Warning;
 
@@ -47,6 +49,7 @@ struct Preparing {
     pose: Pose,
     hollow: Option<Hollowing>,
     supports: Option<Supporting>,
+    wider_mm: f64,
     /// The weights of facets that say where no contact and no hole may be, if they do.
     protected: Option<Vec<f32>>,
 }
@@ -61,8 +64,13 @@ pub struct Hollowed {
     /// The drain holes that meet it, each with its depth: those asked for, then those placed automatically. None of
     /// plates with several models, each of which has a frame of its own.
     pub drains: Vec<Drain>,
+    /// Number of pillars that hold ceilings of the void.
+    pub pillars: usize,
     /// Walls may be thinner than asked by this.
     pub resolution_mm: f64,
+    /// Tops of these pillars, from the model's lowest point, and the distance up to which each holds the ceiling.
+    #[serde(skip)]
+    pub ceilings_mm: Vec<([f64; 3], f64)>,
 }
 
 /// The supports of a model.
@@ -80,6 +88,9 @@ pub struct Supported {
     pub unreached: Vec<SupportPoint>,
     /// Supports that stand on the model, where they leave a mark.
     pub on_model: usize,
+    /// The largest load of a tip; absent if nothing is held, or if loads do not count.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub load: Option<SupportLoad>,
     /// Points where pillars, branches and braces join, from the model's lowest point.
     #[serde(skip)]
     pub joints_mm: Vec<[f64; 3]>,
@@ -127,7 +138,8 @@ impl Prepared {
         let mut supports = None;
         if let Some(supporting) = &sampling.supports {
             let mut within = |fraction| progress(between + (1.0 - between) * fraction);
-            let mut made = prepare::support(&mesh, supporting, protected, &mut within)?;
+            let mut made =
+                prepare::support(&mesh, supporting, protected, sampling.wider_mm, &mut within)?;
             let shell = std::mem::take(&mut made.shell);
             mesh.add(&shell.vertices, &shell.facets, FacetClass::Support);
             mesh.lift(made.lift_mm);
@@ -140,6 +152,7 @@ impl Prepared {
                 pose: sampling.pose,
                 hollow: sampling.hollow.clone(),
                 supports: sampling.supports.clone(),
+                wider_mm: sampling.wider_mm,
                 protected: protected.map(<[f32]>::to_vec),
             },
             printed: mesh.printed_bounds(),
@@ -197,7 +210,7 @@ impl Prepared {
             },
             printed: mesh.printed_bounds(),
             mesh,
-            hollowed: self.hollowed.clone(),
+            hollowed: self.hollowed.as_ref().map(|it| it.moved(place)),
             supports: self.supports.as_ref().map(|it| it.moved(place)),
             warnings: self.warnings.clone(),
             unsupported: None,
@@ -210,11 +223,13 @@ impl Prepared {
             pose,
             hollow,
             supports,
+            wider_mm,
             protected: of,
         } = &self.of;
         *pose == sampling.pose
             && *hollow == sampling.hollow
             && *supports == sampling.supports
+            && *wider_mm == sampling.wider_mm
             && of.as_deref() == protected
     }
 
@@ -293,9 +308,28 @@ fn hollow(
     warnings.extend(drain_warnings(&void));
     Ok(Some(Hollowed {
         void_ml: void.shell.volume_mm3() / 1e3,
+        pillars: void.pillars.len(),
+        ceilings_mm: void
+            .pillars
+            .iter()
+            .map(|it| (it.top_mm.as_dvec3().to_array(), it.reach_mm().into()))
+            .collect(),
         drains: void.drains.into_iter().map(|drain| drain.0).collect(),
         resolution_mm: void.resolution_mm,
     }))
+}
+
+impl Hollowed {
+    /// The same, with the tops of its pillars at their places elsewhere.
+    fn moved(&self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
+        let ceilings_mm = self.ceilings_mm.iter();
+        Self {
+            ceilings_mm: ceilings_mm
+                .map(|&(at, reach_mm)| (place(at), reach_mm))
+                .collect(),
+            ..self.clone()
+        }
+    }
 }
 
 impl Supported {
@@ -306,6 +340,7 @@ impl Supported {
             points: supports.points.clone(),
             unreached: supports.unreached.clone(),
             on_model: supports.on_model,
+            load: supports.load,
             joints_mm: supports.joints_mm.clone(),
         }
     }

@@ -272,6 +272,11 @@ impl Sampled {
         &self.prepared.mesh
     }
 
+    /// Returns true if it has supports.
+    pub fn is_supported(&self) -> bool {
+        self.prepared.supports.is_some()
+    }
+
     /// Returns true if it was sampled like this.
     pub fn is_of(&self, sampling: &Sampling, protected: Option<&[f32]>) -> bool {
         self.sampling == *sampling && self.prepared.is_of(sampling, protected)
@@ -279,10 +284,22 @@ impl Sampled {
 
     /// Contacts and joints of the supports, with the reach of contacts on surfaces that these limits call too flat.
     pub fn held(&self, limits: &Limits) -> Held {
+        let mut held = Held {
+            ceilings_mm: self
+                .prepared
+                .hollowed
+                .iter()
+                .flat_map(|it| it.ceilings_mm.clone())
+                .collect(),
+            ..Held::default()
+        };
         let (Some(supported), Some(supporting)) = (&self.supported, &self.sampling.supports) else {
-            return Held::default();
+            return held;
         };
         let lifted = |[x, y, z]: [f64; 3]| [x, y, z + supported.lift_mm];
+        for (at_mm, _) in &mut held.ceilings_mm {
+            *at_mm = lifted(*at_mm);
+        }
         let contacts = supported.points.iter().map(|point| lifted(point.at_mm));
         let profile = supporting.profile();
         Held {
@@ -292,6 +309,7 @@ impl Sampled {
             tip_mm: profile.tip_mm,
             joints_mm: supported.joints_mm.iter().copied().map(lifted).collect(),
             joint_reach_mm: 2.0 * profile.pillar_mm,
+            ..held
         }
     }
 }

@@ -3,7 +3,11 @@
 use glam::DVec3;
 
 use super::super::surface::{self, Squares, Surface};
-use super::SupportProfile;
+use super::held::Held;
+use super::islands::islands;
+use super::loads::{Candidate, Loads};
+use super::rays::Rays;
+use super::{SupportLoad, SupportProfile};
 use crate::argsort::sort_by_number;
 use crate::ldi::Ldi;
 use crate::model::{Across, Mesh};
@@ -19,6 +23,8 @@ pub(super) struct Contact {
     pub diameter_mm: f64,
     /// The facet that is nearest.
     pub facet: u32,
+    /// True if it only shares the pull of the film: the surface holds without it.
+    pub is_for_load: bool,
 }
 
 /// Inputs that decide where contacts go, besides the model.
@@ -36,76 +42,108 @@ const ON_PLATE_MM: f64 = 0.02;
 /// Distance at which one tip holds two lowest points, in contact diameters.
 const SAME: f64 = 0.5;
 
-/// Radius that a contact holds around a lone entry (see `lone_entries`), in spacings: half of that on a level surface.
+/// Radius that a contact holds around a lowest point of rays, in spacings: half of that on a level surface.
 const LONE: f64 = 0.5;
 
 /// Places new contacts: those that hold the model together with the given ones, and those that it would need on protected
-/// facets. Both ascend, which is the order in which they are printed.
+/// facets, and the largest load of all.
 pub(super) fn place(
     model: &Surface<'_>,
     ldi: &Ldi,
     wishes: &Wishes<'_>,
-) -> (Vec<Contact>, Vec<Contact>) {
+) -> (Vec<Contact>, Vec<Contact>, Option<SupportLoad>) {
     let (mesh, profile) = (model.mesh, wishes.profile);
-    let mut held = Held::new(mesh);
-    for contact in wishes.given {
-        held.insert(contact.at);
-    }
-    let (mut contacts, mut missed) = (Vec::new(), Vec::new());
+    let rays = Rays::new(ldi);
     let stands = |at: DVec3| profile.lift_mm + at.z <= ON_PLATE_MM;
     let is_protected = |facet: u32| surface::is_protected(wishes.weights, facet);
-    let same_mm = SAME * profile.contact_mm;
     let contact = |at: DVec3| model.contact(at, profile.contact_mm, profile.contact_mm);
-    let rays = Rays::new(ldi);
-    let lowest = lowest_points(mesh, ldi, same_mm).into_iter();
-    let lowest = lowest.map(|at| (at, same_mm));
-    let lone_mm = LONE * profile.spacing_mm;
-    let lone = lone_entries(&rays).into_iter().map(|at| (at, lone_mm));
-    for (at, same_mm) in lowest.chain(lone) {
-        if stands(at) || held.is_near(at, same_mm) {
-            continue;
+    let most_mm = profile.reach_mm(profile.self_supporting_slope);
+    let mut held = Held::new(&rays, most_mm);
+    // The plate holds what stands on it.
+    held.insert(rays.each().filter(|&(ray, it)| stands(rays.at(ray, it))));
+    let mut points = Points::new(mesh);
+    let mut placed: [Vec<Contact>; 2] = Default::default();
+    let mut add = |held: &mut Held<'_>, points: &mut Points, at: DVec3| {
+        let found = contact(at);
+        let protected = found.is_some_and(|it| is_protected(it.facet));
+        placed[usize::from(protected)].extend(found);
+        points.insert(at);
+        if !protected {
+            held.insert_at(at);
         }
-        match contact(at) {
-            // Facets nearby may still get contacts.
-            Some(it) if is_protected(it.facet) => missed.push(it),
-            found => {
-                held.insert(at);
-                contacts.extend(found);
-            }
+    };
+    for contact in wishes.given {
+        points.insert(contact.at);
+        held.insert_at(contact.at);
+    }
+    let same_mm = SAME * profile.contact_mm;
+    for at in lowest_points(mesh, &rays, same_mm) {
+        if !stands(at) && !points.is_near(at, same_mm) {
+            add(&mut held, &mut points, at);
+        }
+    }
+    let pitch_mm = ldi.grid.pitch_mm;
+    let lone_mm = LONE * profile.spacing_mm;
+    for island in islands(&rays, |it| held.away_mm(it) <= pitch_mm) {
+        let at = rays.at(island.ray, island.stretch);
+        let is_near = if island.is_lone {
+            points.is_near(at, lone_mm)
+        } else if island.joins_soon {
+            held.away_mm(island.stretch) < lone_mm
+        } else {
+            points.is_near(at, 2.0 * same_mm)
+        };
+        let is_of_model = rays.stretches[island.stretch].facet < ldi.classes.model_end();
+        if is_of_model && !is_near {
+            add(&mut held, &mut points, at);
         }
     }
     let mut places = overhangs(mesh, &rays, profile);
     sort_by_number(&mut places, |place| micrometres(place.at.z));
-    // Edges come after the rest. Spared facets come last, and so show what stays without support.
+    // Edges come after the rest. Protected facets come last, and so show what stays without support.
     for (protected, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
         let these =
             |place: &&Place| place.is_edge == is_edge && is_protected(place.facet) == protected;
         for place in places.iter().filter(these) {
-            if held.is_near(place.at, profile.reach_mm(place.slope)) {
-                continue;
-            }
-            held.insert(place.at);
-            // The plate holds what stands on it.
-            if !stands(place.at) {
-                let to = if protected {
-                    &mut missed
-                } else {
-                    &mut contacts
-                };
-                to.extend(contact(place.at));
+            if held.away_mm(place.stretch) >= profile.reach_mm(place.slope) {
+                add(&mut held, &mut points, place.at);
+                held.insert(std::iter::once((place.ray, place.stretch)));
             }
         }
     }
-    (contacts, missed)
+    let [placed, missed] = placed;
+    let standing = rays.each().filter(|&(ray, it)| stands(rays.at(ray, it)));
+    let loads = Loads::new(&rays, profile, standing.map(|it| it.1).collect());
+    let candidates: Vec<Candidate> = surfaces(mesh, &rays, STEEPEST)
+        .filter(|it| !stands(it.at) && !is_protected(it.facet))
+        .map(|it| Candidate {
+            stretch: it.stretch,
+            at: it.at,
+        })
+        .collect();
+    let mut all = wishes.given.to_vec();
+    all.extend(placed);
+    let fixed = wishes.given.len();
+    let largest = loads.relieve(&mut all, fixed, &candidates, &contact);
+    let largest = largest.map(|it| SupportLoad {
+        newtons: it.newtons,
+        limit_n: loads.most_n(all[it.contact].diameter_mm),
+        at_mm: all[it.contact].at.to_array(),
+        layer_mm: it.z_mm,
+    });
+    (all.split_off(fixed), missed, largest)
 }
 
-/// Points that are held, by squares.
-struct Held {
+/// The steepest surface that gets contacts for the load alone, as its rise over its run: 60° from level.
+const STEEPEST: f64 = 1.732;
+
+/// Contacts by squares.
+struct Points {
     squares: Squares,
     points: Vec<Vec<DVec3>>,
 }
 
-impl Held {
+impl Points {
     fn new(mesh: &Mesh) -> Self {
         let squares = Squares::below(mesh);
         Self {
@@ -114,7 +152,6 @@ impl Held {
         }
     }
 
-    #[inline]
     fn insert(&mut self, at: DVec3) {
         for square in self.squares.within(at, at) {
             self.points[square].push(at);
@@ -134,7 +171,7 @@ impl Held {
 /// The lowest points of the solid: each is where an island begins. Ascending.
 ///
 /// The lowest vertices of level edges and facets are one point, the one nearest to their middle.
-fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
+fn lowest_points(mesh: &Mesh, rays: &Rays<'_>, inward_mm: f64) -> Vec<DVec3> {
     let facets = &mesh.facets[..mesh.classes.surface_end()];
     let roots = level_groups(mesh, facets);
     let at = |corner: usize| mesh.vertices[facets[corner / 3][corner % 3] as usize].as_dvec3();
@@ -186,7 +223,7 @@ fn lowest_points(mesh: &Mesh, ldi: &Ldi, inward_mm: f64) -> Vec<DVec3> {
         };
         vertex + (middle(root) - vertex) * part
     });
-    let mut points: Vec<DVec3> = found.filter(|at| !is_buried(ldi, *at)).collect();
+    let mut points: Vec<DVec3> = found.filter(|at| !is_hidden(rays, *at)).collect();
     // In the same order for any order of facets.
     sort_by_number(&mut points, |at| at.y);
     sort_by_number(&mut points, |at| at.x);
@@ -239,124 +276,28 @@ fn level_groups(mesh: &Mesh, facets: &[[u32; 3]]) -> Vec<u32> {
         .collect()
 }
 
-/// Returns true if a body of the model goes on below a point, along the nearest ray.
-fn is_buried(ldi: &Ldi, at: DVec3) -> bool {
-    let pixel = ldi.grid.to_pixels(at.truncate());
-    let (column, row) = (pixel.x.floor(), pixel.y.floor());
-    let (width, height) = (f64::from(ldi.grid.width), f64::from(ldi.grid.height));
-    if !((0.0..width).contains(&column) && (0.0..height).contains(&row)) {
+/// Returns true if the print goes on below a point along the nearest ray, or if the point is in a void.
+fn is_hidden(rays: &Rays<'_>, at: DVec3) -> bool {
+    let Some(ray) = rays.nearest(at) else {
         return false;
-    }
-    let ray = ldi.ray(row as usize * ldi.grid.width as usize + column as usize);
-    let mut is_buried = false;
-    crate::ldi::model_ranges(ray, ldi.classes, |from_mm, to_mm| {
-        let below_mm = at.z - ldi.grid.pitch_mm;
-        is_buried |= f64::from(from_mm) < below_mm && below_mm < f64::from(to_mm);
-    });
-    is_buried
+    };
+    let below_mm = (at.z - rays.ldi.grid.pitch_mm) as f32;
+    let mut stretches = rays.of_ray(ray).map(|it| &rays.stretches[it]);
+    let goes_on = stretches.any(|it| it.from_mm < below_mm && below_mm < it.to_mm);
+    goes_on || rays.is_void(ray, at.z as f32)
 }
 
 /// A place on a surface that does not support itself.
 #[derive(Clone)]
 struct Place {
+    ray: usize,
+    stretch: usize,
     at: DVec3,
     facet: u32,
     /// Rise over run.
     slope: f64,
     /// True if a tip there would reach beyond the surface.
     is_edge: bool,
-}
-
-/// A stretch of a ray in the model.
-struct Stretch {
-    from_mm: f32,
-    to_mm: f32,
-    /// Through which the ray enters.
-    facet: u32,
-}
-
-/// Stretches of the rays in the model.
-struct Rays<'a> {
-    ldi: &'a Ldi,
-    /// The stretches of ray i are those from `starts[i]` to `starts[i + 1]`.
-    starts: Vec<usize>,
-    stretches: Vec<Stretch>,
-}
-
-impl<'a> Rays<'a> {
-    fn new(ldi: &'a Ldi) -> Self {
-        let end = ldi.classes.model_end();
-        let mut rays = Self {
-            ldi,
-            starts: vec![0],
-            stretches: Vec::new(),
-        };
-        for ray in 0..ldi.rays() {
-            let first = rays.stretches.len();
-            let mut winding = 0;
-            let mut entry = (0.0, 0);
-            for hit in ldi.ray(ray).iter().filter(|hit| hit.facet() < end) {
-                let was_inside = winding != 0;
-                winding += hit.winding();
-                match (was_inside, winding != 0) {
-                    (false, true) => entry = (hit.z_mm, hit.facet()),
-                    (true, false) => match rays.stretches[first..].last_mut() {
-                        // Bodies that touch are one.
-                        Some(last) if entry.0 <= last.to_mm => last.to_mm = hit.z_mm,
-                        _ => rays.stretches.push(Stretch {
-                            from_mm: entry.0,
-                            to_mm: hit.z_mm,
-                            facet: entry.1,
-                        }),
-                    },
-                    _ => {}
-                }
-            }
-            rays.starts.push(rays.stretches.len());
-        }
-        rays
-    }
-
-    #[inline]
-    fn of_ray(&self, ray: usize) -> &[Stretch] {
-        &self.stretches[self.starts[ray]..self.starts[ray + 1]]
-    }
-
-    /// The stretches of the ray at an offset in columns and rows; none beyond the grid.
-    fn beside(&self, [column, row]: [usize; 2], [dx, dy]: [isize; 2]) -> &[Stretch] {
-        let (width, height) = (self.ldi.grid.width as usize, self.ldi.grid.height as usize);
-        match (column.checked_add_signed(dx), row.checked_add_signed(dy)) {
-            (Some(x), Some(y)) if x < width && y < height => self.of_ray(y * width + x),
-            _ => &[],
-        }
-    }
-
-    fn each(&self) -> impl Iterator<Item = ([usize; 2], DVec3, &Stretch)> {
-        let width = self.ldi.grid.width as usize;
-        (0..self.ldi.rays()).flat_map(move |ray| {
-            let [column, row] = [ray % width, ray / width];
-            let at = self.ldi.grid.centre_mm(column as u32, row as u32);
-            let stretches = self.of_ray(ray).iter();
-            stretches.map(move |it| ([column, row], at.extend(f64::from(it.from_mm)), it))
-        })
-    }
-}
-
-/// Points where a ray enters the model while no adjacent ray is inside it: only facets closer together than rays
-/// connect such a feature to the rest.
-fn lone_entries(rays: &Rays<'_>) -> Vec<DVec3> {
-    let around = (-1..=1).flat_map(|dx| (-1..=1).map(move |dy| [dx, dy]));
-    let around: Vec<[isize; 2]> = around.filter(|&it| it != [0, 0]).collect();
-    let lone = rays.each().filter(|(place, _, stretch)| {
-        let z_mm = stretch.from_mm;
-        let meets = |it: &Stretch| it.from_mm <= z_mm && z_mm < it.to_mm;
-        !around
-            .iter()
-            .any(|&step| rays.beside(*place, step).iter().any(meets))
-    });
-    let mut lone: Vec<DVec3> = lone.map(|it| it.1).collect();
-    sort_by_number(&mut lone, |at| micrometres(at.z));
-    lone
 }
 
 /// Heights are compared in micrometres: their last digits depend on the order of a facet's corners.
@@ -366,31 +307,44 @@ fn micrometres(z_mm: f64) -> f64 {
 
 /// Rays' lower ends on surfaces that do not support themselves.
 fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Place> {
+    let mut places: Vec<Place> = surfaces(mesh, rays, profile.self_supporting_slope).collect();
     let pitch_mm = rays.ldi.grid.pitch_mm;
     let reach = (profile.contact_mm / 2.0 / pitch_mm) as isize + 1;
     let around = [[reach, 0], [-reach, 0], [0, reach], [0, -reach]];
-    let places = rays.each().filter_map(|(place, at, stretch)| {
+    for place in &mut places {
+        let rise_mm = (reach as f64 * pitch_mm * (place.slope + 1.0)) as f32;
+        let from_mm = rays.stretches[place.stretch].from_mm;
+        let goes_on = |&step: &[isize; 2]| {
+            let mut there = rays.near(place.ray, step).map(|it| &rays.stretches[it]);
+            there.any(|it| (it.from_mm - from_mm).abs() <= rise_mm)
+        };
+        place.is_edge = !around.iter().all(goes_on);
+    }
+    places
+}
+
+/// Rays' lower ends on surfaces of the model that are flatter than a slope.
+fn surfaces(mesh: &Mesh, rays: &Rays<'_>, most_slope: f64) -> impl Iterator<Item = Place> {
+    rays.each().filter_map(move |(ray, place)| {
+        let stretch = &rays.stretches[place];
+        // Ceilings of voids are held from within.
+        if stretch.facet >= rays.ldi.classes.model_end() {
+            return None;
+        }
         let [a, b, c] = mesh.corners(stretch.facet as usize);
         let normal = (b - a).cross(c - a);
         let run = (normal.x * normal.x + normal.y * normal.y).sqrt();
         // A facet's slope is its normal's run over its rise.
         let slope = run / -normal.z;
-        if !(0.0..profile.self_supporting_slope).contains(&slope) {
-            return None;
-        }
-        let rise_mm = (reach as f64 * pitch_mm * (slope + 1.0)) as f32;
-        let goes_on = |&step: &[isize; 2]| {
-            let mut there = rays.beside(place, step).iter();
-            there.any(|it| (it.from_mm - stretch.from_mm).abs() <= rise_mm)
-        };
-        Some(Place {
-            at,
+        (0.0..most_slope).contains(&slope).then(|| Place {
+            ray,
+            stretch: place,
+            at: rays.at(ray, place),
             facet: stretch.facet,
             slope,
-            is_edge: !around.iter().all(goes_on),
+            is_edge: false,
         })
-    });
-    places.collect()
+    })
 }
 
 impl Surface<'_> {
@@ -433,6 +387,7 @@ impl Surface<'_> {
             },
             diameter_mm,
             facet,
+            is_for_load: false,
         })
     }
 }

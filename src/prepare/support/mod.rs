@@ -5,6 +5,10 @@
 
 mod clearance;
 mod contacts;
+mod held;
+mod islands;
+mod loads;
+mod rays;
 mod shapes;
 mod trees;
 
@@ -105,6 +109,10 @@ pub struct SupportProfile {
     pub foot_thickness_mm: f64,
     /// True if all feet stand on one raft.
     pub raft: bool,
+    /// Pull of the film per area at a disc of 20 mm, in kPa; 0 if supports need not bear it.
+    pub film_kpa: f64,
+    /// Greatest stress of a tip where it touches the model, in MPa.
+    pub tip_mpa: f64,
 }
 
 impl Default for SupportProfile {
@@ -132,6 +140,9 @@ impl SupportStrength {
             foot_mm: 4.0,
             foot_thickness_mm: 0.5,
             raft: false,
+            film_kpa: 15.0,
+            // A tip of 0.4 mm bears 0.25 N, a fifth of what breaks it.
+            tip_mpa: 2.0,
         };
         match self {
             Self::Medium => medium,
@@ -203,6 +214,8 @@ impl Supporting {
                 profile.foot_thickness_mm,
                 0.1,
             ),
+            ("supports.profile.film_kpa", profile.film_kpa, 0.0),
+            ("supports.profile.tip_mpa", profile.tip_mpa, 0.1),
         ];
         let points = self.points.iter().flatten();
         let points = points.filter_map(|point| point.contact_mm);
@@ -231,6 +244,23 @@ pub struct Supports {
     pub joints_mm: Vec<[f64; 3]>,
     /// Distance by which the model is lifted above the plate.
     pub lift_mm: f64,
+    /// The largest load of a tip; none if nothing is held, or if loads do not count.
+    pub load: Option<SupportLoad>,
+}
+
+/// Load of the tip that bears most.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct SupportLoad {
+    /// Force with which the film pulls at it, in newtons.
+    pub newtons: f64,
+    /// The largest force that it is to bear.
+    pub limit_n: f64,
+    /// Its contact, from the model's middle and lowest point.
+    pub at_mm: [f64; 3],
+    /// Height of the layer that pulls most, from the model's lowest point.
+    pub layer_mm: f64,
 }
 
 impl Supports {
@@ -248,6 +278,10 @@ impl Supports {
             points: points(&self.points),
             unreached: points(&self.unreached),
             astray: self.astray.clone(),
+            load: self.load.map(|load| SupportLoad {
+                at_mm: place(load.at_mm),
+                ..load
+            }),
             joints_mm: self.joints_mm.iter().map(|&at| place(at)).collect(),
             ..*self
         }
@@ -271,7 +305,8 @@ const BESIDE_MM: f64 = 6.0;
 
 /// The supports of a model that stands on the plate, centred on x = y = 0. They are in its frame, so the plate is below it by the lift.
 ///
-/// `weights` are those of the facets of the surface, if they say where no contact may be.
+/// `weights` are those of the facets of the surface, if they say where no contact may be. `wider_mm` is added to all radii: the width by which
+/// masks are narrower than what they print.
 ///
 /// Cost: linear in the points of a lattice around the model, and in contacts times those of all pillars.
 ///
@@ -281,6 +316,7 @@ pub fn support(
     mesh: &Mesh,
     supporting: &Supporting,
     weights: Option<&[f32]>,
+    wider_mm: f64,
     progress: &mut Progress<'_>,
 ) -> Result<Supports, LdiError> {
     let profile = supporting.profile();
@@ -320,16 +356,17 @@ pub fn support(
             None => astray.push(place),
         }
     }
-    let mut missed = Vec::new();
+    let (mut missed, mut load) = (Vec::new(), None);
     if supporting.fill || supporting.points.is_none() {
         let wishes = Wishes {
             profile: &profile,
             given: &contacts,
             weights: weights.filter(|_| supporting.protect),
         };
-        let (placed, left) = contacts::place(&surface, &ldi, &wishes);
+        let (placed, left, largest) = contacts::place(&surface, &ldi, &wishes);
         contacts.extend(placed);
         missed = left;
+        load = largest;
     }
     let columns = Columns::of_model(&ldi);
     drop(ldi);
@@ -360,16 +397,15 @@ pub fn support(
     let order = crate::argsort::argsort(contacts.iter().map(|it| -it.at.z));
     for (done, contact) in order.iter().map(|&it| &contacts[it]).enumerate() {
         report(progress, 0.8 + 0.2 * done as f64 / order.len() as f64)?;
-        let to = if trees.add(contact) {
-            &mut points
-        } else {
-            &mut unreached
-        };
-        to.push(point(contact));
+        match (trees.add(contact), contact.is_for_load) {
+            (true, _) => points.push(point(contact)),
+            (false, true) => {}
+            (false, false) => unreached.push(point(contact)),
+        }
     }
     trees.brace();
     let (on_model, joints) = (trees.on_model(), trees.joints());
-    let shell = trees.shell();
+    let shell = trees.shell(wider_mm);
     report(progress, 1.0)?;
     Ok(Supports {
         shell,
@@ -379,5 +415,6 @@ pub fn support(
         on_model,
         joints_mm: joints,
         lift_mm: profile.lift_mm,
+        load,
     })
 }

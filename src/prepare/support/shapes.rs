@@ -14,12 +14,21 @@ const DOUBLINGS: u32 = 2;
 const ENCLOSING: f64 = 1.04;
 
 /// Bodies, each a closed surface.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub(super) struct Shapes {
     pub shell: Shell,
+    /// Added to all radii, for masks that are narrower than what they print.
+    wider_mm: f64,
 }
 
 impl Shapes {
+    pub fn new(wider_mm: f64) -> Self {
+        Self {
+            shell: Shell::default(),
+            wider_mm,
+        }
+    }
+
     /// A round body from one point to another, with these radii at its ends.
     pub fn cone(&mut self, from: DVec3, from_mm: f64, to: DVec3, to_mm: f64) {
         let length_mm = from.distance(to);
@@ -28,7 +37,7 @@ impl Shapes {
         }
         let along = (to - from) / length_mm;
         let rim = |middle: DVec3, radius_mm: f64| {
-            let rim = rim(along, radius_mm, DOUBLINGS).into_iter();
+            let rim = rim(along, radius_mm + self.wider_mm, DOUBLINGS).into_iter();
             rim.map(|it| middle + it).collect()
         };
         self.shell.drum(rim(from, from_mm), rim(to, to_mm));
@@ -36,7 +45,7 @@ impl Shapes {
 
     /// A ball, as a stack of rims. It encloses the round one, and so the rims of struts that end in its middle.
     pub fn ball(&mut self, middle: DVec3, radius_mm: f64) {
-        let radius_mm = radius_mm * ENCLOSING;
+        let radius_mm = (radius_mm + self.wider_mm) * ENCLOSING;
         let around = circle(DOUBLINGS);
         let sides = around.len() as u32;
         let begin = self.shell.vertices.len() as u32;
@@ -128,7 +137,7 @@ mod tests {
     use super::*;
 
     fn volume_mm3(make: impl FnOnce(&mut Shapes)) -> f64 {
-        let mut shapes = Shapes::default();
+        let mut shapes = Shapes::new(0.0);
         make(&mut shapes);
         shapes.shell.volume_mm3()
     }

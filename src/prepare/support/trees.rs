@@ -35,6 +35,9 @@ const TRIES: usize = 12;
 /// Lengths of tips that are tried, as parts of the usual one.
 const LENGTHS: [f64; 3] = [1.0, 0.7, 0.4];
 
+/// Part of the clearance that a pillar keeps where it is thicker so as not to buckle.
+const STIFF: f64 = 0.8;
+
 /// Diameter of a brace, as a part of a pillar's.
 const BRACE: f64 = 0.7;
 
@@ -52,6 +55,9 @@ const BETWEEN_FEET_MM: f64 = 0.6;
 
 /// Least ratio of a foot's radius to its pillar's.
 const WIDER: f64 = 1.2;
+
+/// Length of a strut up to which only its two surfaces are near.
+const CLOSE_MM: f64 = 1.0;
 
 /// The thickest part of a strut between two surfaces, as a part of its length.
 const STRUT: f64 = 0.3;
@@ -100,6 +106,8 @@ pub(super) struct Trees<'a> {
     /// Short supports between two surfaces of the model: their ends, radii there, and the radius halfway.
     struts: Vec<([DVec3; 2], [f64; 2], f64)>,
     braces: Vec<[DVec3; 2]>,
+    /// Least radius of the pillar at each node, so that it does not buckle.
+    least_mm: Vec<f64>,
 }
 
 /// Ways to hold a tip.
@@ -120,6 +128,7 @@ impl<'a> Trees<'a> {
             tips: Vec::new(),
             struts: Vec::new(),
             braces: Vec::new(),
+            least_mm: Vec::new(),
         }
     }
 
@@ -334,6 +343,12 @@ impl<'a> Trees<'a> {
         let length_mm = top.z - bottom_mm;
         let middle = (top + bottom) * 0.5;
         let room_mm = f64::from(self.clearance.distance_mm(middle));
+        // Between surfaces closer together than distances are known, they are all that is near.
+        let room_mm = if length_mm < CLOSE_MM {
+            room_mm.max(0.45 * length_mm)
+        } else {
+            room_mm
+        };
         let end_mm = contact.diameter_mm / 2.0;
         let most_mm = (self.profile.pillar_mm / 2.0).max(end_mm);
         let middle_mm = most_mm.min(STRUT * length_mm).min(room_mm);
@@ -389,7 +404,7 @@ impl<'a> Trees<'a> {
         points
     }
 
-    /// Braces tall pillars with those nearby, zigzag from one to the other.
+    /// Braces tall pillars with those nearby, zigzag from one to the other, and makes those thicker that no brace reaches.
     pub fn brace(&mut self) {
         // For each node the one above that holds most.
         let mut above = vec![NONE; self.nodes.len()];
@@ -406,9 +421,58 @@ impl<'a> Trees<'a> {
         }
         let on_plate = self.feet.iter().filter(|foot| foot.1 == End::Plate);
         let trunks: Vec<Vec<DVec3>> = on_plate.map(|foot| self.trunk(foot.0, &above)).collect();
+        // Heights at which braces hold each trunk.
+        let mut braced_mm = vec![Vec::new(); trunks.len()];
         for [a, b] in nearest_pairs(&trunks, self.profile.branch_mm) {
+            let from = self.braces.len();
             self.brace_pair(&trunks[a], &trunks[b]);
+            // They go from one to the other in turn, so each holds both.
+            let heights_mm = self.braces[from..]
+                .iter()
+                .map(|[low, high]| (low.z + high.z) / 2.0);
+            let heights_mm: Vec<f64> = heights_mm.collect();
+            braced_mm[a].extend(&heights_mm);
+            braced_mm[b].extend(&heights_mm);
         }
+        self.least_mm = vec![0.0; self.nodes.len()];
+        let feet: Vec<u32> = self.feet.iter().map(|foot| foot.0).collect();
+        let on_plate = self.feet.iter().filter(|foot| foot.1 == End::Plate);
+        let braced: Vec<(u32, Vec<f64>)> = on_plate.map(|foot| foot.0).zip(braced_mm).collect();
+        for foot in feet {
+            let braced_mm = braced.iter().find(|it| it.0 == foot);
+            self.stiffen(foot, &above, braced_mm.map_or(&[], |it| &it.1));
+        }
+    }
+
+    /// Makes a pillar so thick that it does not buckle between what holds it. By Euler, the force that it bears grows with the fourth power of
+    /// its diameter and falls with the square of its free length, so the diameter grows with the root of the length.
+    fn stiffen(&mut self, foot: u32, above: &[u32], braced_mm: &[f64]) {
+        let trunk = self.trunk(foot, above);
+        let (bottom_mm, top_mm) = (trunk[0].z, trunk[trunk.len() - 1].z);
+        let mut heights_mm = vec![bottom_mm, top_mm];
+        heights_mm.extend(braced_mm);
+        heights_mm.sort_by(f64::total_cmp);
+        let gaps_mm = heights_mm.windows(2).map(|pair| pair[1] - pair[0]);
+        let free_mm = gaps_mm.fold(0.0, f64::max);
+        if free_mm <= self.profile.brace_mm {
+            return;
+        }
+        let least_mm = self.profile.pillar_mm / 2.0 * (free_mm / self.profile.brace_mm).sqrt();
+        let mut node = foot;
+        while node != NONE {
+            // Not into the model beside it.
+            let at = self.nodes[node as usize].at;
+            let room_mm =
+                f64::from(self.clearance.distance_mm(at)) - STIFF * self.profile.clearance_mm;
+            self.least_mm[node as usize] = least_mm.min(room_mm.max(0.0));
+            node = above[node as usize];
+        }
+    }
+
+    /// Radius of the pillar at a node.
+    fn pillar_mm(&self, node: u32) -> f64 {
+        let least_mm = self.least_mm.get(node as usize).copied();
+        radius_mm(&self.profile, self.nodes[node as usize].tips).max(least_mm.unwrap_or(0.0))
     }
 
     fn brace_pair(&mut self, a: &[DVec3], b: &[DVec3]) {
@@ -444,10 +508,10 @@ impl<'a> Trees<'a> {
         }
     }
 
-    /// All bodies.
-    pub fn shell(self) -> Shell {
-        let mut shapes = Shapes::default();
+    /// All bodies, wider by `wider_mm` all around.
+    pub fn shell(self, wider_mm: f64) -> Shell {
         let profile = self.profile;
+        let mut shapes = Shapes::new(wider_mm);
         for tip in &self.tips {
             let penetration_mm = profile.penetration_mm;
             // As wide as asked where it meets the surface.
@@ -462,17 +526,16 @@ impl<'a> Trees<'a> {
             );
         }
         let is_plain = |node: &Node| node.is_straight && node.above == 1;
-        for node in self
-            .nodes
-            .iter()
-            .filter(|node| node.down != NONE && !is_plain(node))
-        {
+        for (place, node) in self.nodes.iter().enumerate() {
+            if node.down == NONE || is_plain(node) {
+                continue;
+            }
             let mut next = node.down;
             while self.nodes[next as usize].down != NONE && is_plain(&self.nodes[next as usize]) {
                 next = self.nodes[next as usize].down;
             }
             let below = &self.nodes[next as usize];
-            let radius_mm = radius_mm(&profile, node.tips);
+            let radius_mm = self.pillar_mm(place as u32);
             shapes.ball(node.at, radius_mm);
             let is_on_model = below.down == NONE && self.end_of(next) == End::Model;
             if is_on_model {
@@ -485,10 +548,9 @@ impl<'a> Trees<'a> {
         }
         let mut feet = Vec::new();
         for &(foot, end) in &self.feet {
-            let foot = &self.nodes[foot as usize];
             if end == End::Plate {
-                let pillar_mm = radius_mm(&profile, foot.tips);
-                feet.push((foot.at, self.foot_mm(foot.at, pillar_mm), pillar_mm));
+                let (at, pillar_mm) = (self.nodes[foot as usize].at, self.pillar_mm(foot));
+                feet.push((at, self.foot_mm(at, pillar_mm), pillar_mm));
             }
         }
         for &([top, bottom], [end_mm, foot_mm], middle_mm) in &self.struts {

@@ -1,0 +1,305 @@
+//! Surfaces that contacts of supports hold: lit pixels within reach of a contact, along lit pixels and never through
+//! air.
+
+use std::cmp::Reverse;
+use std::collections::BinaryHeap;
+
+use super::collect::Frame;
+use super::held::Held;
+use super::rows::{Rows, Span};
+
+/// Least side of a cell. Gaps narrower than a cell count as closed: resin closes them as well.
+const CELL_MM: f64 = 0.1;
+
+/// Offsets from a cell to those around it and to those a knight's move away, with their lengths in cells. Lengths of
+/// ways are at most 2.8 % too long; [`Surfaces::new`] extends the reach by as much.
+const STEPS: [([i32; 2], f32); 16] = {
+    const DIAGONAL: f32 = std::f32::consts::SQRT_2;
+    const KNIGHT: f32 = 2.236_068;
+    [
+        ([1, 0], 1.0),
+        ([0, 1], 1.0),
+        ([-1, 0], 1.0),
+        ([0, -1], 1.0),
+        ([1, 1], DIAGONAL),
+        ([-1, 1], DIAGONAL),
+        ([-1, -1], DIAGONAL),
+        ([1, -1], DIAGONAL),
+        ([2, 1], KNIGHT),
+        ([1, 2], KNIGHT),
+        ([-1, 2], KNIGHT),
+        ([-2, 1], KNIGHT),
+        ([-2, -1], KNIGHT),
+        ([-1, -2], KNIGHT),
+        ([1, -2], KNIGHT),
+        ([2, -1], KNIGHT),
+    ]
+};
+
+/// The surfaces around all contacts.
+pub(super) struct Surfaces {
+    /// Columns and rows of pixels in a cell.
+    cell: [i32; 2],
+    cells: Cells,
+    /// From the lowest up.
+    contacts: Vec<Contact>,
+}
+
+/// Lit cells of the last layer that contacts reach, in the box around their squares.
+struct Cells {
+    /// Column and row of the first cell.
+    first: [i32; 2],
+    columns: usize,
+    rows: usize,
+    is_lit: Vec<bool>,
+    /// Cells that differ from those of the layer below, in ascending order.
+    changed: Vec<usize>,
+}
+
+/// The cells around a contact.
+struct Contact {
+    z_mm: f64,
+    reach_mm: f64,
+    /// The reach in cells, and cells from the contact's to the rim of the square.
+    reach: f32,
+    half: i32,
+    /// Column and row of the contact's cell, from the first of all.
+    middle: [i32; 2],
+    /// Distance of each cell from the contact in cells, row by row; none yet.
+    away: Vec<f32>,
+}
+
+impl Contact {
+    /// Cells of a side of the square.
+    fn side(&self) -> usize {
+        2 * self.half as usize + 1
+    }
+
+    /// Column and row of the square's first cell.
+    fn corner(&self) -> [usize; 2] {
+        self.middle.map(|it| (it - self.half) as usize)
+    }
+
+    fn beside(&self, cell: usize, [x, y]: [i32; 2]) -> Option<usize> {
+        let side = self.side();
+        let (column, row) = ((cell % side) as i32 + x, (cell / side) as i32 + y);
+        let range = 0..side as i32;
+        (range.contains(&column) && range.contains(&row))
+            .then(|| row as usize * side + column as usize)
+    }
+
+    /// Follows the lit cells from the last layer to this one.
+    fn advance(&mut self, cells: &Cells) {
+        let [first_column, first_row] = self.corner();
+        let side = self.side();
+        let is_lit = |cell: usize| {
+            let (column, row) = (first_column + cell % side, first_row + cell / side);
+            cells.is_lit[row * cells.columns + column]
+        };
+        let mut next = BinaryHeap::new();
+        if self.away.is_empty() {
+            // The tip itself is lit where pixels are fine enough.
+            let middle = self.half as usize * (side + 1);
+            let around = STEPS[..8]
+                .iter()
+                .filter_map(|&(step, _)| self.beside(middle, step));
+            let begins: Vec<usize> = match is_lit(middle) {
+                true => vec![middle],
+                false => around.filter(|&it| is_lit(it)).collect(),
+            };
+            if begins.is_empty() {
+                return;
+            }
+            self.away = vec![f32::INFINITY; side * side];
+            for cell in begins {
+                self.away[cell] = 0.0;
+                next.push(Reverse((0, cell)));
+            }
+        } else {
+            let local = |&cell: &usize| {
+                let column = (cell % cells.columns).checked_sub(first_column)?;
+                (column < side).then(|| (cell / cells.columns - first_row) * side + column)
+            };
+            let from = cells
+                .changed
+                .partition_point(|&it| it < first_row * cells.columns);
+            let end = (first_row + side) * cells.columns;
+            let changed = cells.changed[from..].iter().take_while(|&&it| it < end);
+            let changed: Vec<usize> = changed.filter_map(local).collect();
+            for &cell in &changed {
+                self.away[cell] = f32::INFINITY;
+            }
+            for &cell in changed.iter().filter(|&&it| is_lit(it)) {
+                for (step, _) in STEPS {
+                    let from = self.beside(cell, step);
+                    if let Some(from) = from.filter(|&it| self.away[it] < self.reach) {
+                        next.push(Reverse((self.away[from].to_bits(), from)));
+                    }
+                }
+            }
+        }
+        while let Some(Reverse((bits, cell))) = next.pop() {
+            let here = f32::from_bits(bits);
+            if here > self.away[cell] {
+                continue;
+            }
+            for ([x, y], length) in STEPS {
+                let Some(there) = self.beside(cell, [x, y]).filter(|&it| is_lit(it)) else {
+                    continue;
+                };
+                // A knight passes between two cells, both of which must be lit.
+                let is_between = |step| self.beside(cell, step).is_some_and(&is_lit);
+                let passes = x.abs() + y.abs() < 3
+                    || [[x / 2, y / 2], [x - x / 2, y - y / 2]]
+                        .into_iter()
+                        .all(is_between);
+                let total = here + length;
+                if passes && total <= self.reach && total < self.away[there] {
+                    self.away[there] = total;
+                    next.push(Reverse((total.to_bits(), there)));
+                }
+            }
+        }
+    }
+}
+
+impl Surfaces {
+    pub fn new(held: &Held, frame: &Frame<'_>) -> Self {
+        let pixels = |pitch_mm: f64| (CELL_MM / pitch_mm).ceil().max(1.0);
+        // Cells are square where pixels are.
+        let cell = [frame.grid.pitch_mm, frame.grid.pitch_y_mm].map(pixels);
+        let cell_mm = (cell[0] * frame.grid.pitch_mm).max(cell[1] * frame.grid.pitch_y_mm);
+        let cell = cell.map(|pixels| pixels as i32);
+        let contacts = held.contacts_mm.iter().map(|&at_mm| (at_mm, held.reach_mm));
+        let contacts = contacts.chain(held.ceilings_mm.iter().copied());
+        let contacts = contacts.map(|([x_mm, y_mm, z_mm], reach_mm)| {
+            let [column, row] = frame.pixel(x_mm, y_mm);
+            // A contact is anywhere in its cell, and so is a pixel.
+            let reach = reach_mm * 1.028 / cell_mm + 1.0;
+            Contact {
+                z_mm,
+                reach_mm,
+                reach: reach as f32,
+                half: reach as i32 + 1,
+                middle: [column.div_euclid(cell[0]), row.div_euclid(cell[1])],
+                away: Vec::new(),
+            }
+        });
+        let mut contacts: Vec<Contact> = contacts.collect();
+        contacts.sort_by(|a, b| a.z_mm.total_cmp(&b.z_mm));
+        let [columns, rows] = [0, 1].map(|axis| {
+            let ends = contacts
+                .iter()
+                .map(|it| (it.middle[axis] - it.half, it.middle[axis] + it.half));
+            ends.reduce(|a, b| (a.0.min(b.0), a.1.max(b.1)))
+                .unwrap_or_default()
+        });
+        for contact in &mut contacts {
+            contact.middle = [contact.middle[0] - columns.0, contact.middle[1] - rows.0];
+        }
+        let cells = Cells {
+            first: [columns.0, rows.0],
+            columns: (columns.1 - columns.0 + 1) as usize,
+            rows: (rows.1 - rows.0 + 1) as usize,
+            is_lit: Vec::new(),
+            changed: Vec::new(),
+        };
+        Self {
+            cell,
+            cells,
+            contacts,
+        }
+    }
+
+    /// Removes the pixels that contacts hold from those of a layer.
+    pub fn take_from(&mut self, rows: &mut Rows, lit: &Rows, layer: usize, frame: &Frame<'_>) {
+        let [bottom_mm, top_mm] = [layer, layer + 1].map(|boundary| frame.z_mm[boundary]);
+        self.contacts.retain(|it| it.z_mm + it.reach_mm > bottom_mm);
+        let count = self.contacts.partition_point(|it| it.z_mm < top_mm);
+        if count == 0 {
+            return;
+        }
+        self.cells.advance(self.cell, lit);
+        let mut spans: Vec<(i32, Span)> = Vec::new();
+        for place in 0..count {
+            self.contacts[place].advance(&self.cells);
+            let contact = &self.contacts[place];
+            if !contact.away.is_empty() && self.is_near(contact, rows) {
+                self.held_by(contact, &mut spans);
+            }
+        }
+        if spans.is_empty() {
+            return;
+        }
+        spans.sort_unstable_by_key(|&(row, span)| (row, span.start));
+        let mut theirs = Rows::default();
+        let mut next = spans.iter().peekable();
+        for row in 0..rows.len() {
+            while next.peek().is_some_and(|it| it.0 < row) {
+                next.next();
+            }
+            while let Some((_, span)) = next.next_if(|it| it.0 == row) {
+                theirs.push(*span);
+            }
+            theirs.end_row();
+        }
+        *rows = rows.without(&theirs);
+    }
+
+    /// The first pixel of a cell, by its column or row from the first of all.
+    fn pixel(&self, axis: usize, cell: usize) -> i32 {
+        (self.cells.first[axis] + cell as i32) * self.cell[axis]
+    }
+
+    /// Returns true if some of these pixels are around a contact.
+    fn is_near(&self, contact: &Contact, rows: &Rows) -> bool {
+        let [columns, of_rows] = [0, 1].map(|axis| {
+            let first = contact.corner()[axis];
+            self.pixel(axis, first)..self.pixel(axis, first + contact.side())
+        });
+        of_rows.into_iter().any(|row| {
+            let mut spans = rows.row(row).iter();
+            spans.any(|span| span.start < columns.end && columns.start < span.end)
+        })
+    }
+
+    /// Appends the pixels of the cells within reach of a contact, by rows.
+    fn held_by(&self, contact: &Contact, spans: &mut Vec<(i32, Span)>) {
+        let is_held = |away: &f32| *away <= contact.reach;
+        let [first_column, first_row] = contact.corner();
+        for (row, cells) in contact.away.chunks_exact(contact.side()).enumerate() {
+            let mut column = first_column;
+            for run in cells.chunk_by(|a, b| is_held(a) == is_held(b)) {
+                let end = column + run.len();
+                if is_held(&run[0]) {
+                    let [start, end] = [column, end].map(|it| self.pixel(0, it));
+                    let [top, bottom] = [0, 1].map(|it| self.pixel(1, first_row + row + it));
+                    spans.extend((top..bottom).map(|row| (row, Span { start, end })));
+                }
+                column = end;
+            }
+        }
+    }
+}
+
+impl Cells {
+    /// Takes the lit cells of the next layer that contacts reach.
+    fn advance(&mut self, cell: [i32; 2], lit: &Rows) {
+        let mut is_lit = vec![false; self.columns * self.rows];
+        let left = self.first[0] * cell[0];
+        for (row, cells) in is_lit.chunks_exact_mut(self.columns).enumerate() {
+            let top = (self.first[1] + row as i32) * cell[1];
+            for span in (top..top + cell[1]).flat_map(|row| lit.row(row)) {
+                let first = (span.start - left).div_euclid(cell[0]).max(0) as usize;
+                let last = (span.end - 1 - left).div_euclid(cell[0]);
+                if last >= 0 && first < self.columns {
+                    cells[first..=(last as usize).min(self.columns - 1)].fill(true);
+                }
+            }
+        }
+        let before = std::mem::replace(&mut self.is_lit, is_lit);
+        let pairs = before.iter().zip(&self.is_lit).enumerate();
+        let changed = pairs.filter(|(_, (before, now))| before != now);
+        self.changed = changed.map(|(cell, _)| cell).collect();
+    }
+}

@@ -1,0 +1,402 @@
+//! Surfaces that would fail in the vat: shelves close together, ceilings of voids, and mouths of drain holes.
+
+use crate::common::{assert_near, load, quiet, solids};
+use cusp_slicer::growth::Growth;
+use cusp_slicer::inspect::{Code, Limits, Printability};
+use cusp_slicer::job::Supported;
+use cusp_slicer::job::{Options, Report};
+use cusp_slicer::prepare::{
+    AutoDrain, Hollowing, Infill, SupportPoint, SupportProfile, SupportStrength, Supporting,
+};
+use cusp_slicer::resin::Resin;
+use glam::{DVec3, Vec3};
+
+use super::plan;
+
+fn cuboid(from: [f32; 3], to: [f32; 3]) -> solids::Triangles {
+    let [from, to] = [from, to].map(Vec3::from_array);
+    solids::moved(&solids::cuboid(to - from), from)
+}
+
+fn print(triangles: &solids::Triangles, options: &Options) -> (Report, Printability) {
+    let mut slicer = load(triangles);
+    let options = Options {
+        pitch_mm: options.pitch_mm.or(Some(0.1)),
+        ..options.clone()
+    };
+    let report = plan(&mut slicer, &options);
+    let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
+    (report, found)
+}
+
+fn supported() -> Options {
+    Options {
+        supports: Some(Supporting::default()),
+        ..Options::default()
+    }
+}
+
+/// Two shelves of 16 by 16 mm and 1 mm thick on a wall, `gap_mm` apart.
+fn shelves(gap_mm: f32) -> solids::Triangles {
+    let upper_mm = 7.0 + gap_mm;
+    let mut all = cuboid([-2.0, -8.0, 0.0], [0.5, 8.0, 14.0]);
+    all.extend(cuboid([0.0, -8.0, 6.0], [16.0, 8.0, 7.0]));
+    all.extend(cuboid([0.0, -8.0, upper_mm], [16.0, 8.0, upper_mm + 1.0]));
+    all
+}
+
+/// Heights of the contacts from the model's lowest point, with their numbers.
+fn levels(points_mm: &[DVec3]) -> Vec<(f64, usize)> {
+    let mut levels: Vec<(f64, usize)> = Vec::new();
+    for at in points_mm {
+        match levels.iter_mut().find(|it| (it.0 - at.z).abs() < 0.01) {
+            Some(level) => level.1 += 1,
+            None => levels.push((at.z, 1)),
+        }
+    }
+    levels.sort_by(|a, b| a.0.total_cmp(&b.0));
+    levels
+}
+
+#[test]
+fn a_shelf_is_held_alike_whatever_is_close_below_it() {
+    let spacing_mm = SupportStrength::Medium.profile().spacing_mm;
+    for gap_mm in [0.5, 1.0, 1.5, 2.0, 3.0] {
+        let (report, found) = print(&shelves(gap_mm), &supported());
+        let supported = report.models[0].supported.clone().unwrap();
+        assert!(supported.unreached.is_empty(), "{gap_mm}");
+        let points = supported.points.iter();
+        let points: Vec<DVec3> = points.map(|it| it.at_mm.into()).collect();
+        let levels = levels(&points);
+        // The wall is lifted as well.
+        let [(0.0, _), lower, upper] = levels[..] else {
+            panic!("{gap_mm}: {levels:?}");
+        };
+        assert_eq!(lower.1, upper.1, "{gap_mm}");
+        // Every point of the upper shelf is near a contact of its own or the wall.
+        let middle = 7.0;
+        for step in 0..32 * 32 {
+            let [x, y] = [step % 32, step / 32].map(|it| f64::from(it) * 0.5 + 0.25);
+            let at = DVec3::new(x - middle, y - 8.0, upper.0);
+            let nearest_mm = points.iter().map(|it| it.distance(at));
+            let nearest_mm = nearest_mm.fold(f64::INFINITY, f64::min);
+            assert!(
+                x < 1.0 || nearest_mm < spacing_mm + 0.3,
+                "{gap_mm}: {at} {nearest_mm}"
+            );
+        }
+        let overhangs = found.findings.iter().filter(|it| it.code == Code::Overhang);
+        assert_eq!(overhangs.count(), 0, "{gap_mm}");
+    }
+}
+
+#[test]
+fn the_check_measures_reach_within_the_layer() {
+    // Supports of the lower shelf alone: the upper one is as far from them as from anything.
+    let shelves = shelves(1.0);
+    let (report, _) = print(&shelves, &supported());
+    let mut points = report.models[0].supported.clone().unwrap().points;
+    points.retain(|it| it.at_mm[2] < 7.0);
+    let lower = Options {
+        supports: Some(Supporting {
+            points: Some(points),
+            ..Supporting::default()
+        }),
+        ..Options::default()
+    };
+    let (_, found) = print(&shelves, &lower);
+    let overhangs = found.findings.iter().filter(|it| it.code == Code::Overhang);
+    let area_mm2: f64 = overhangs.map(|it| it.area_mm2).sum();
+    // All but what a contact holds by the wall, and a millimetre.
+    assert!((10.9 * 16.0..14.5 * 16.0).contains(&area_mm2), "{area_mm2}");
+}
+
+fn hollow(hollowing: Hollowing) -> Options {
+    Options {
+        hollow: Some(hollowing),
+        ..Options::default()
+    }
+}
+
+#[test]
+fn wide_ceilings_of_voids_stand_on_pillars() {
+    let block = solids::cuboid(Vec3::new(30.0, 30.0, 20.0));
+    let bare = Hollowing {
+        pillars: false,
+        ..Hollowing::default()
+    };
+    let (_, found) = print(&block, &hollow(bare.clone()));
+    let ceiling = found.findings.iter().find(|it| it.code == Code::Overhang);
+    let area_mm2 = ceiling.unwrap().area_mm2;
+    // 26 by 26 mm, less what its rounded rim and a millimetre beside it hold.
+    assert!((430.0..576.0).contains(&area_mm2), "{area_mm2}");
+    let (report, found) = print(&block, &hollow(Hollowing::default()));
+    assert!(!found.findings.iter().any(|it| it.code == Code::Overhang));
+    assert!(!found.findings.iter().any(|it| it.code == Code::Island));
+    let hollowed = report.models[0].hollowed.clone().unwrap();
+    assert!((9..40).contains(&hollowed.pillars), "{}", hollowed.pillars);
+    // They cost little of what hollowing saves.
+    let (without, _) = print(&block, &hollow(bare));
+    let void_ml = without.models[0].hollowed.clone().unwrap().void_ml;
+    assert!(
+        hollowed.void_ml > 0.85 * void_ml,
+        "{} of {void_ml}",
+        hollowed.void_ml
+    );
+    // A ceiling no wider than a bridge needs none, and a round one holds itself.
+    for solid in [
+        solids::cuboid(Vec3::new(30.0, 8.5, 20.0)),
+        solids::cuboid(Vec3::new(8.5, 8.5, 30.0)),
+    ] {
+        let (report, _) = print(&solid, &hollow(Hollowing::default()));
+        assert_eq!(report.models[0].hollowed.clone().unwrap().pillars, 0);
+    }
+}
+
+#[test]
+fn nothing_hangs_in_the_air_where_a_hole_cuts_struts() {
+    let drained = Hollowing {
+        infill: Some(Infill::default()),
+        auto_drain: Some(AutoDrain::default()),
+        ..Hollowing::default()
+    };
+    for solid in [
+        solids::sphere(15.0, 5),
+        solids::cuboid(Vec3::new(26.0, 22.0, 24.0)),
+    ] {
+        let (report, found) = print(&solid, &hollow(drained.clone()));
+        let hollowed = report.models[0].hollowed.clone().unwrap();
+        assert!(!hollowed.drains.is_empty());
+        let islands = found.findings.iter();
+        let islands: Vec<_> = islands
+            .filter(|it| [Code::Island, Code::LooseBody].contains(&it.code))
+            // A ball on the plate begins with its lowest point, and where a strut leaves a wall pixels come a layer early.
+            .filter(|it| it.at_mm[2] > 0.5 && it.volume_mm3 > 0.02)
+            .collect();
+        assert!(islands.is_empty(), "{islands:?}");
+    }
+}
+
+#[test]
+fn contacts_stand_around_the_mouth_of_a_hole() {
+    let options = Options {
+        hollow: Some(Hollowing {
+            auto_drain: Some(AutoDrain::default()),
+            ..Hollowing::default()
+        }),
+        ..supported()
+    };
+    let (report, found) = print(&solids::sphere(12.0, 6), &options);
+    let hole = report.models[0].hollowed.clone().unwrap().drains[0];
+    let mouth = DVec3::from_array(hole.at_mm).truncate();
+    let supported = report.models[0].supported.clone().unwrap();
+    for point in &supported.points {
+        let away_mm = DVec3::from_array(point.at_mm).truncate().distance(mouth);
+        assert!(away_mm > hole.diameter_mm / 2.0, "{point:?}");
+    }
+    assert!(supported.points.len() > 3);
+    let floats = |code| matches!(code, Code::Island | Code::LooseBody);
+    assert!(
+        !found.findings.iter().any(|it| floats(it.code)),
+        "{:?}",
+        found.counts
+    );
+}
+
+/// Pull of a film of 15 kPa at a region.
+fn pull_n(area_mm2: f64, perimeter_mm: f64) -> f64 {
+    15e-3 * area_mm2 * (2.0 * area_mm2 / perimeter_mm / 10.0).sqrt()
+}
+
+/// Supports when contacts are at these places, from the middle, and wherever else islands begin.
+fn held_at(triangles: &solids::Triangles, at_mm: &[[f64; 2]]) -> Supported {
+    let points = at_mm.iter().map(|&[x, y]| SupportPoint {
+        at_mm: [x, y, 0.0],
+        contact_mm: None,
+    });
+    let options = Options {
+        supports: Some(Supporting {
+            points: Some(points.collect()),
+            fill: true,
+            // None for the surface itself.
+            profile: Some(SupportProfile {
+                spacing_mm: 50.0,
+                tip_mpa: 50.0,
+                ..SupportProfile::default()
+            }),
+            ..Supporting::default()
+        }),
+        ..Options::default()
+    };
+    print(triangles, &options).0.models[0]
+        .supported
+        .clone()
+        .unwrap()
+}
+
+/// The largest load of springs in a plane that hold a force at the origin: equal ones, each of which bends by a radius of a millimetre.
+fn naive_load(places: &[[f64; 2]], force_n: f64) -> f64 {
+    // Relaxation: lift and tilt until forces and moments balance.
+    let (mut lift, mut tilt) = (force_n / places.len() as f64, [0.0, 0.0]);
+    for _ in 0..200_000 {
+        let load = |&[x, y]: &[f64; 2]| lift + tilt[0] * x + tilt[1] * y;
+        let loads: Vec<f64> = places.iter().map(load).collect();
+        lift += 0.1 * (force_n - loads.iter().sum::<f64>()) / places.len() as f64;
+        for axis in 0..2 {
+            let moment: f64 = places
+                .iter()
+                .zip(&loads)
+                .map(|(it, load)| it[axis] * load)
+                .sum();
+            let bent = tilt[axis] * places.len() as f64;
+            tilt[axis] -= 1e-4 * (moment + bent);
+        }
+    }
+    let load = |&[x, y]: &[f64; 2]| lift + tilt[0] * x + tilt[1] * y;
+    places.iter().map(load).fold(0.0, f64::max)
+}
+
+#[test]
+fn loads_are_those_of_a_rigid_body_on_springs() {
+    let slab = solids::cuboid(Vec3::new(20.0, 10.0, 3.0));
+    let force_n = pull_n(200.0, 60.0);
+    for places in [
+        vec![[-9.8, -4.9], [9.8, -4.9], [-9.8, 4.9], [9.8, 4.9]],
+        vec![[9.8, -4.9], [9.8, 4.9]],
+        vec![[2.0, 3.0], [9.8, 4.9], [-3.0, 0.0]],
+    ] {
+        let supported = held_at(&slab, &places);
+        let all = supported.points.iter().map(|it| [it.at_mm[0], it.at_mm[1]]);
+        let wanted_n = naive_load(&all.collect::<Vec<_>>(), force_n);
+        let load_n = supported.load.unwrap().newtons;
+        assert_near(load_n, wanted_n, 0.05 * wanted_n);
+    }
+    // A frame pulls by its area and all of its rims.
+    let bar = |x: f32, y: f32, at: [f32; 2]| {
+        let middle = Vec3::new(at[0], at[1], 0.0);
+        solids::moved(&solids::cuboid(Vec3::new(x, y, 3.0)), middle)
+    };
+    let mut frame = bar(20.0, 2.0, [0.0, 0.0]);
+    frame.extend(bar(20.0, 2.0, [0.0, 18.0]));
+    frame.extend(bar(2.0, 20.0, [0.0, 0.0]));
+    frame.extend(bar(2.0, 20.0, [18.0, 0.0]));
+    let options = Options {
+        supports: Some(Supporting::default()),
+        ..Options::default()
+    };
+    let (report, _) = print(&frame, &options);
+    let supported = report.models[0].supported.clone().unwrap();
+    let mean_n = pull_n(144.0, 144.0) / supported.points.len() as f64;
+    let load = supported.load.unwrap();
+    assert!(
+        (0.95 * mean_n..1.6 * mean_n).contains(&load.newtons),
+        "{load:?}"
+    );
+}
+
+#[test]
+fn no_tip_bears_more_than_its_limit() {
+    let upside_down = |it: &[Vec3; 3]| it.map(|at| Vec3::new(at.x, -at.y, 12.0 - at.z));
+    let cone = solids::cone(10.0, 12.0, 16);
+    let cone = cone.iter().map(upside_down).collect();
+    for (name, solid, contacts) in [
+        ("ball", solids::sphere(10.0, 6), 17..27),
+        ("cone", cone, 17..40),
+        ("slab", solids::cuboid(Vec3::new(20.0, 20.0, 4.0)), 20..60),
+    ] {
+        let (report, found) = print(&solid, &supported());
+        let supported = report.models[0].supported.clone().unwrap();
+        let load = supported.load.unwrap();
+        assert!(load.newtons <= 1.01 * load.limit_n, "{name}: {load:?}");
+        let count = supported.points.len();
+        assert!(contacts.contains(&count), "{name}: {count}");
+        assert!(supported.unreached.is_empty(), "{name}");
+        assert!(!found.findings.iter().any(|it| it.code == Code::Overhang));
+    }
+}
+
+#[test]
+fn a_tall_pillar_alone_is_thicker() {
+    let profile = SupportProfile {
+        lift_mm: 30.0,
+        ..SupportProfile::default()
+    };
+    let options = Options {
+        supports: Some(Supporting {
+            profile: Some(profile),
+            ..Supporting::default()
+        }),
+        pitch_mm: Some(0.05),
+        ..Options::default()
+    };
+    let (report, found) = print(&solids::sphere(0.8, 4), &options);
+    assert_eq!(report.models[0].supported.clone().unwrap().points.len(), 1);
+    // Free over 28 mm, where 15 bear: wider by the root of that.
+    let z_mm = &report.z_mm;
+    let layer = z_mm.iter().position(|&it| it > 15.0).unwrap();
+    let area_mm2 = found.peel.area_mm2[layer];
+    let polygon_mm2 = 3.0615 * 0.25 * 28.0 / 15.0;
+    assert_near(area_mm2, polygon_mm2, 0.1 * polygon_mm2);
+}
+
+#[test]
+fn tips_stay_as_wide_as_asked_when_masks_shrink() {
+    let slab = solids::cuboid(Vec3::new(8.0, 8.0, 3.0));
+    let light = |xy_mm| Options {
+        supports: Some(Supporting {
+            strength: SupportStrength::Light,
+            ..Supporting::default()
+        }),
+        resin: Resin {
+            growth: Growth {
+                xy_mm,
+                ..Growth::default()
+            },
+            ..Resin::default()
+        },
+        planner: cusp_slicer::job::Planner::Uniform { layer_mm: 0.05 },
+        ..Options::default()
+    };
+    // A layer through the tips, a tenth of a millimetre below the slab.
+    let area_mm2 = |options: &Options| print(&slab, options).1.peel.area_mm2[97];
+    let [as_modelled, shrunk] = [0.0, 0.15].map(|xy_mm| area_mm2(&light(xy_mm)));
+    assert!(as_modelled > 0.5);
+    assert_near(shrunk, as_modelled, 0.25 * as_modelled);
+}
+
+#[test]
+fn pieces_that_float_are_named_after_every_preparation() {
+    // Two balls, of which points by hand hold one.
+    let mut balls = solids::sphere(4.0, 4);
+    balls.extend(solids::moved(
+        &solids::sphere(4.0, 4),
+        Vec3::new(12.0, 0.0, 3.0),
+    ));
+    let mut slicer = load(&balls);
+    let options = Options {
+        supports: Some(Supporting {
+            points: Some(vec![SupportPoint {
+                at_mm: [-6.0, 0.0, 0.0],
+                contact_mm: None,
+            }]),
+            ..Supporting::default()
+        }),
+        pitch_mm: Some(0.1),
+        ..Options::default()
+    };
+    plan(&mut slicer, &options);
+    let floating = slicer.floating(&mut quiet).unwrap();
+    assert_eq!(floating.len(), 1);
+    assert_eq!(floating[0].code, Code::LooseBody);
+    let ball_mm3 = 4.0 / 3.0 * std::f64::consts::PI * 64.0;
+    assert_near(floating[0].volume_mm3, ball_mm3, 0.05 * ball_mm3);
+    // Held on their own, nothing floats; and of a model as it is nothing is said.
+    for options in [supported(), Options::default()] {
+        let options = Options {
+            pitch_mm: Some(0.1),
+            ..options
+        };
+        plan(&mut slicer, &options);
+        assert!(slicer.floating(&mut quiet).unwrap().is_empty());
+    }
+}
