@@ -100,7 +100,7 @@ test("a point by hand is unreached once a plan of it says so", () => {
 
 test("holes are taken, added and placed anew likewise, in the direction that they go", () => {
   const hollow = { wall: "2" };
-  const hollowed = { void_ml: 1, resolution_mm: 0.2, drains: [{ at_mm: [1, 0, 0] as [number, number, number], direction: [-1, 0, 0] as [number, number, number], diameter_mm: 3, depth_mm: 2 }] };
+  const hollowed = { void_ml: 1, pillars: 0, resolution_mm: 0.2, drains: [{ at_mm: [1, 0, 0] as [number, number, number], direction: [-1, 0, 0] as [number, number, number], diameter_mm: 3, depth_mm: 2 }] };
   const settings = { ...DEFAULT_SETTINGS, ...hollow };
   const points = shown("drains", hollow, { hollowed });
   expect(points.list).toMatchObject([{ at_mm: [1, 0, 0], inward: [-1, 0, 0], diameter_mm: 3, isLocked: false }]);
