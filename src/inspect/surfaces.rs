@@ -103,9 +103,10 @@ impl Contact {
             let around = STEPS[..8]
                 .iter()
                 .filter_map(|&(step, _)| self.beside(middle, step));
-            let begins: Vec<usize> = match is_lit(middle) {
-                true => vec![middle],
-                false => around.filter(|&it| is_lit(it)).collect(),
+            let begins: Vec<usize> = if is_lit(middle) {
+                vec![middle]
+            } else {
+                around.filter(|&it| is_lit(it)).collect()
             };
             if begins.is_empty() {
                 return;

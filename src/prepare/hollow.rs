@@ -249,45 +249,23 @@ pub fn hollow(
         return Ok(None);
     };
     let lattice = lattice_of(&model, &grid, low_mm - reach_mm);
-    // The lowest slice is outside, and so is the last.
-    let slices = ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 4;
-    let most_mm = reach_mm + 2.0 * lattice.spacing_mm;
-    let group = slices_at_a_time(&model);
-    let mut basins = Basins::new(
-        lattice.width,
-        lattice.width * lattice.height,
-        lattice.spacing_mm,
-    );
-    let mut field = Field::default();
-    // Columns of nodes that pass a cavity, in which nothing stands.
-    let mut is_cavity = vec![false; lattice.width * lattice.height];
-    for from in (0..slices).step_by(group) {
-        report(progress, 0.6 + 0.3 * from as f64 / slices as f64)?;
-        let these = from..(from + group).min(slices);
-        let heights_mm: Vec<f32> = these
-            .clone()
-            .map(|it| lattice.node_mm(0, 0, it).z)
-            .collect();
-        let distances = core.distances_mm(To::Solid, &heights_mm, most_mm, STRIDE);
-        let within = joined.as_ref().map_or_else(Vec::new, |joined| {
-            joined.distances_mm(To::Outside, &heights_mm, most_mm, STRIDE)
-        });
-        let mut within = within.into_iter();
-        for (mut depths_mm, slice) in distances.into_iter().zip(these) {
-            let within = within.next();
-            for (is_cavity, within_mm) in is_cavity.iter_mut().zip(within.iter().flatten()) {
-                *is_cavity |= *within_mm > 0.0;
-            }
-            depths(&mut depths_mm, reach_mm, within, model.pitch_mm);
-            field.push(&depths_mm, reach_mm - most_mm);
-            if hollowing.auto_drain.is_some() {
-                if let Some(struts) = &struts {
-                    leave_standing(struts, &lattice, slice, &mut depths_mm);
-                }
-                basins.add(&depths_mm);
-            }
-        }
-    }
+    let slices = Slices {
+        lattice,
+        // The lowest slice is outside, and so is the last.
+        count: ((high_mm - low_mm + 2.0 * reach_mm) / lattice.spacing_mm) as usize + 4,
+        core: &core,
+        joined: joined.as_ref(),
+        reach_mm,
+        most_mm: reach_mm + 2.0 * lattice.spacing_mm,
+        struts: struts.as_ref(),
+        has_basins: hollowing.auto_drain.is_some(),
+    };
+    let Depths {
+        field,
+        is_cavity,
+        basins,
+    } = slices.depths(&mut |fraction| progress(0.6 + 0.3 * fraction))?;
+    let slices = slices.count;
     let (mut automatic, mut undrained) = (Vec::new(), 0);
     if let Some(hole) = hollowing.auto_drain {
         // A hole as wide as the model would remove all of it.
@@ -296,15 +274,11 @@ pub fn hollow(
         let reach_mm = (hole.diameter_mm / 2.0).max(2.0 * pitch_mm);
         let is_protected =
             surface::protected_within(mesh, weights.filter(|_| hole.protect), reach_mm);
-        for (slice, node) in basins.finish() {
-            report(progress, 0.9)?;
-            let lowest_mm = lattice.node_mm(node % lattice.width, node / lattice.width, slice);
+        let place = |lowest_mm| {
             let place = || drain::place(&model, &lattice, lowest_mm, hole, &is_protected);
-            match is_small.then(place).flatten() {
-                Some(drain) => automatic.push(drain),
-                None => undrained += 1,
-            }
-        }
+            is_small.then(place).flatten()
+        };
+        (automatic, undrained) = holes_of(basins, &lattice, &place, progress)?;
     }
     let mut standing = Standing {
         lattice,
@@ -338,21 +312,51 @@ pub fn hollow(
         resolution_mm: pitch_mm,
         closed: closed_of(&cavities, &closed, &lattice, model.pitch_mm),
     };
-    for (place, drain) in hollowing.drains.iter().enumerate() {
-        report(progress, 1.0)?;
-        if !void.drill(drain, &bounds) {
-            void.astray.push(place);
-        }
-    }
-    for drain in &automatic {
-        report(progress, 1.0)?;
-        void.undrained += usize::from(!void.drill(drain, &bounds));
-    }
+    void.drill_all(&hollowing.drains, &automatic, &bounds, progress)?;
     void.fill_pits(lattice.spacing_mm);
     Ok(Some(void))
 }
 
+/// The holes that `place` gives for the lowest point of each basin, and the number of basins that stay full.
+fn holes_of(
+    basins: Basins,
+    lattice: &Lattice,
+    place: &dyn Fn(Vec3) -> Option<Drain>,
+    progress: &mut Progress<'_>,
+) -> Result<(Vec<Drain>, usize), LdiError> {
+    let (mut holes, mut undrained) = (Vec::new(), 0);
+    for (slice, node) in basins.finish() {
+        report(progress, 0.9)?;
+        match place(lattice.node_mm(node % lattice.width, node / lattice.width, slice)) {
+            Some(hole) => holes.push(hole),
+            None => undrained += 1,
+        }
+    }
+    Ok((holes, undrained))
+}
+
 impl Void {
+    /// Adds the drain holes that are asked for, and notes those that meet no void; then those that are placed automatically.
+    fn drill_all(
+        &mut self,
+        drains: &[Drain],
+        automatic: &[Drain],
+        bounds: &Bounds,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), LdiError> {
+        for (place, drain) in drains.iter().enumerate() {
+            report(progress, 1.0)?;
+            if !self.drill(drain, bounds) {
+                self.astray.push(place);
+            }
+        }
+        for drain in automatic {
+            report(progress, 1.0)?;
+            self.undrained += usize::from(!self.drill(drain, bounds));
+        }
+        Ok(())
+    }
+
     /// Adds a drain hole; `false` if it does not meet the void.
     fn drill(&mut self, drain: &Drain, bounds: &Bounds) -> bool {
         let Some((shell, depth_mm)) = drain::bore(&self.shell, drain, bounds) else {
@@ -414,6 +418,72 @@ fn leave_standing(struts: &Struts, lattice: &Lattice, slice: usize, field: &mut 
     for (place, field) in inside {
         let (column, row) = (place % lattice.width, place / lattice.width);
         *field = field.min(struts.distance_mm(lattice.node_mm(column, row, slice)));
+    }
+}
+
+/// Slices of the void.
+struct Slices<'a> {
+    lattice: Lattice,
+    count: usize,
+    core: &'a Columns,
+    joined: Option<&'a Columns>,
+    /// Distance of the void's surface from its core.
+    reach_mm: f32,
+    /// The largest distance that matters.
+    most_mm: f32,
+    struts: Option<&'a Struts>,
+    /// True if basins are looked for.
+    has_basins: bool,
+}
+
+/// Depths in the void, and what follows from them.
+struct Depths {
+    field: Field,
+    /// Columns of nodes that pass a cavity, in which nothing stands.
+    is_cavity: Vec<bool>,
+    basins: Basins,
+}
+
+impl Slices<'_> {
+    fn depths(&self, progress: &mut Progress<'_>) -> Result<Depths, LdiError> {
+        let lattice = self.lattice;
+        let nodes = lattice.width * lattice.height;
+        let mut basins = Basins::new(lattice.width, nodes, lattice.spacing_mm);
+        let mut field = Field::default();
+        let mut is_cavity = vec![false; nodes];
+        let group = slices_at_a_time(self.core);
+        for from in (0..self.count).step_by(group) {
+            report(progress, from as f64 / self.count as f64)?;
+            let these = from..(from + group).min(self.count);
+            let heights_mm = these.clone().map(|it| lattice.node_mm(0, 0, it).z);
+            let heights_mm: Vec<f32> = heights_mm.collect();
+            let to_core = self.core;
+            let distances = to_core.distances_mm(To::Solid, &heights_mm, self.most_mm, STRIDE);
+            let within = self.joined.map_or_else(Vec::new, |joined| {
+                joined.distances_mm(To::Outside, &heights_mm, self.most_mm, STRIDE)
+            });
+            let mut within = within.into_iter();
+            for (mut depths_mm, slice) in distances.into_iter().zip(these) {
+                let within = within.next();
+                for (is_cavity, within_mm) in is_cavity.iter_mut().zip(within.iter().flatten()) {
+                    *is_cavity |= *within_mm > 0.0;
+                }
+                depths(&mut depths_mm, self.reach_mm, within, self.core.pitch_mm);
+                field.push(&depths_mm, self.reach_mm - self.most_mm);
+                if !self.has_basins {
+                    continue;
+                }
+                if let Some(struts) = self.struts {
+                    leave_standing(struts, &lattice, slice, &mut depths_mm);
+                }
+                basins.add(&depths_mm);
+            }
+        }
+        Ok(Depths {
+            field,
+            is_cavity,
+            basins,
+        })
     }
 }
 

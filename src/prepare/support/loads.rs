@@ -101,6 +101,9 @@ struct Region {
     sum: DVec2,
 }
 
+/// Visits a piece in a slice, given the union-find of all stretches and the contacts.
+type Visit<'a> = dyn FnMut(&mut [u32], &Slice<'_>, &mut Vec<Contact>) -> Option<usize> + 'a;
+
 /// The parts of a slice, each with the root of its piece.
 type Regions = Vec<(u32, Region)>;
 
@@ -162,9 +165,7 @@ impl<'a> Loads<'a> {
                     best = Some((gap_mm, place));
                 }
             }
-            let Some((_, place)) = best else {
-                return None;
-            };
+            let (_, place) = best?;
             gaps_mm[place] = 0.0;
             let added = contact(candidates[place].at)?;
             for (gap_mm, candidate) in gaps_mm.iter_mut().zip(candidates) {
@@ -226,12 +227,7 @@ impl<'a> Loads<'a> {
 
     /// Calls `each` for every piece of every slice that contacts hold, again while it returns the stretch of a contact that it added. The
     /// regions of slices are found once.
-    fn sweep(
-        &self,
-        regions: &mut Vec<Regions>,
-        contacts: &mut Vec<Contact>,
-        each: &mut dyn FnMut(&mut [u32], &Slice<'_>, &mut Vec<Contact>) -> Option<usize>,
-    ) {
+    fn sweep(&self, regions: &mut Vec<Regions>, contacts: &mut Vec<Contact>, each: &mut Visit<'_>) {
         let rays = self.rays;
         let pitch_mm = rays.ldi.grid.pitch_mm;
         let top_mm = rays.stretches.iter().map(|it| it.to_mm).fold(0.0, f32::max);

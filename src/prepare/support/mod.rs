@@ -111,7 +111,7 @@ pub struct SupportProfile {
     pub raft: bool,
     /// Pull of the film per area at a disc of 20 mm, in kPa; 0 if supports need not bear it.
     pub film_kpa: f64,
-    /// Greatest stress of a tip where it touches the model, in MPa.
+    /// Greatest stress of a tip where it touches the model, in N/mm².
     pub tip_mpa: f64,
 }
 

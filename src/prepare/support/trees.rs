@@ -429,7 +429,7 @@ impl<'a> Trees<'a> {
             // They go from one to the other in turn, so each holds both.
             let heights_mm = self.braces[from..]
                 .iter()
-                .map(|[low, high]| (low.z + high.z) / 2.0);
+                .map(|[low, high]| f64::midpoint(low.z, high.z));
             let heights_mm: Vec<f64> = heights_mm.collect();
             braced_mm[a].extend(&heights_mm);
             braced_mm[b].extend(&heights_mm);
