@@ -18,7 +18,7 @@ export default defineConfig({
     // All cores; by default vitest leaves one free.
     maxWorkers: "100%",
     projects: [
-      { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node" } },
+      { test: { name: "unit", include: ["{src,package,examples}/**/*.test.ts"], setupFiles: ["src/texts/all.ts"], environment: "node", testTimeout: 60_000 } },
       // One browser serves all files of a worker: a tab that has compiled the page opens it in half the time.
       { test: { ...browsers, name: "e2e", include: ["e2e/*.test.ts"], isolate: false } },
       { test: { ...browsers, name: "engines", include: ["e2e/engines/*.test.ts"] } },

@@ -33,6 +33,7 @@ pub use held::Held;
 pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
 
+use crate::argsort::sort_by_number;
 use crate::mask::Masks;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress, report};
@@ -103,7 +104,7 @@ pub fn floating(
     };
     let mut findings = inspect(masks, plan, &limits, &Held::default(), progress)?.findings;
     findings.retain(|it| it.volume_mm3 >= FLOATING_MM3);
-    findings.sort_by(|a, b| b.volume_mm3.total_cmp(&a.volume_mm3));
+    sort_by_number(&mut findings, |it| -it.volume_mm3);
     Ok(findings)
 }
 

@@ -7,6 +7,7 @@ use std::collections::BinaryHeap;
 use super::collect::Frame;
 use super::held::Held;
 use super::rows::{Rows, Span};
+use crate::argsort::sort_by_number;
 
 /// Least side of a cell. Gaps narrower than a cell count as closed: resin closes them as well.
 const CELL_MM: f64 = 0.1;
@@ -57,6 +58,7 @@ struct Cells {
 }
 
 /// The cells around a contact.
+#[derive(Clone)]
 struct Contact {
     z_mm: f64,
     reach_mm: f64,
@@ -187,7 +189,7 @@ impl Surfaces {
             }
         });
         let mut contacts: Vec<Contact> = contacts.collect();
-        contacts.sort_by(|a, b| a.z_mm.total_cmp(&b.z_mm));
+        sort_by_number(&mut contacts, |it| it.z_mm);
         let [columns, rows] = [0, 1].map(|axis| {
             let ends = contacts
                 .iter()
@@ -232,7 +234,10 @@ impl Surfaces {
         if spans.is_empty() {
             return;
         }
-        spans.sort_unstable_by_key(|&(row, span)| (row, span.start));
+        // By rows, and by columns in each.
+        sort_by_number(&mut spans, |(row, span)| {
+            f64::from(*row) * f64::from(i32::MAX) + f64::from(span.start)
+        });
         let mut theirs = Rows::default();
         let mut next = spans.iter().peekable();
         for row in 0..rows.len() {

@@ -34,6 +34,8 @@ pub fn ensure(packages: &[&str]) -> Result<()> {
     process::run(
         command("apt-get")
             .args(["install", "--quiet", "--yes", "--no-install-recommends"])
+            // Two lanes of tests may install at the same time.
+            .args(["-o", "DPkg::Lock::Timeout=300"])
             .args(packages)
             .env("DEBIAN_FRONTEND", "noninteractive"),
     )

@@ -451,7 +451,7 @@ impl<'a> Trees<'a> {
         let (bottom_mm, top_mm) = (trunk[0].z, trunk[trunk.len() - 1].z);
         let mut heights_mm = vec![bottom_mm, top_mm];
         heights_mm.extend(braced_mm);
-        heights_mm.sort_by(f64::total_cmp);
+        argsort::sort_by_number(&mut heights_mm, |it| *it);
         let gaps_mm = heights_mm.windows(2).map(|pair| pair[1] - pair[0]);
         let free_mm = gaps_mm.fold(0.0, f64::max);
         if free_mm <= self.profile.brace_mm {
