@@ -234,10 +234,7 @@ impl Surfaces {
         if spans.is_empty() {
             return;
         }
-        // By rows, and by columns in each.
-        sort_by_number(&mut spans, |(row, span)| {
-            f64::from(*row) * f64::from(i32::MAX) + f64::from(span.start)
-        });
+        spans.sort_unstable_by_key(|&(row, span)| (row, span.start));
         let mut theirs = Rows::default();
         let mut next = spans.iter().peekable();
         for row in 0..rows.len() {
