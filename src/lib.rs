@@ -56,6 +56,7 @@ pub mod misnamed;
 mod parallel;
 pub mod progress;
 mod union_find;
+mod ways;
 
 pub mod filament;
 pub mod format;

@@ -33,7 +33,6 @@ pub use held::Held;
 pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
 
-use crate::argsort::sort_by_number;
 use crate::mask::Masks;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress, report};
@@ -87,7 +86,7 @@ pub struct Printability {
 /// Least volume of a piece that floats in the vat, in mm³. Smaller ones are flakes that the next layer catches.
 const FLOATING_MM3: f64 = 0.5;
 
-/// Pieces that begin with nothing below them and grow by more than a flake before they join what stands on the plate, from the largest down.
+/// Pieces that begin with nothing below them and grow by more than a flake before they join what stands on the plate.
 ///
 /// Cost: that of [`inspect`] for islands alone.
 ///
@@ -104,7 +103,6 @@ pub fn floating(
     };
     let mut findings = inspect(masks, plan, &limits, &Held::default(), progress)?.findings;
     findings.retain(|it| it.volume_mm3 >= FLOATING_MM3);
-    sort_by_number(&mut findings, |it| -it.volume_mm3);
     Ok(findings)
 }
 

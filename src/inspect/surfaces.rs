@@ -1,41 +1,20 @@
 //! Surfaces that contacts of supports hold: lit pixels within reach of a contact, along lit pixels and never through
 //! air.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use super::collect::Frame;
 use super::held::Held;
 use super::rows::{Rows, Span};
 use crate::argsort::sort_by_number;
+use crate::ways::{self, AROUND, KNIGHTS};
 
 /// Least side of a cell. Gaps narrower than a cell count as closed: resin closes them as well.
 const CELL_MM: f64 = 0.1;
 
-/// Offsets from a cell to those around it and to those a knight's move away, with their lengths in cells. Lengths of
-/// ways are at most 2.8 % too long; [`Surfaces::new`] extends the reach by as much.
-const STEPS: [([i32; 2], f32); 16] = {
-    const DIAGONAL: f32 = std::f32::consts::SQRT_2;
-    const KNIGHT: f32 = 2.236_068;
-    [
-        ([1, 0], 1.0),
-        ([0, 1], 1.0),
-        ([-1, 0], 1.0),
-        ([0, -1], 1.0),
-        ([1, 1], DIAGONAL),
-        ([-1, 1], DIAGONAL),
-        ([-1, -1], DIAGONAL),
-        ([1, -1], DIAGONAL),
-        ([2, 1], KNIGHT),
-        ([1, 2], KNIGHT),
-        ([-1, 2], KNIGHT),
-        ([-2, 1], KNIGHT),
-        ([-2, -1], KNIGHT),
-        ([-1, -2], KNIGHT),
-        ([1, -2], KNIGHT),
-        ([2, -1], KNIGHT),
-    ]
-};
+/// Largest ratio of a way along steps to a straight one, by which the reach is longer.
+const LONGER: f64 = 1.028;
+
+/// Length of a knight's move, in cells.
+const KNIGHT: f32 = 2.236_068;
 
 /// The surfaces around all contacts.
 pub(super) struct Surfaces {
@@ -82,12 +61,8 @@ impl Contact {
         self.middle.map(|it| (it - self.half) as usize)
     }
 
-    fn beside(&self, cell: usize, [x, y]: [i32; 2]) -> Option<usize> {
-        let side = self.side();
-        let (column, row) = ((cell % side) as i32 + x, (cell / side) as i32 + y);
-        let range = 0..side as i32;
-        (range.contains(&column) && range.contains(&row))
-            .then(|| row as usize * side + column as usize)
+    fn beside(&self, cell: usize, step: [isize; 2]) -> Option<usize> {
+        ways::beside(cell, step, [self.side(); 2])
     }
 
     /// Follows the lit cells from the last layer to this one.
@@ -98,71 +73,56 @@ impl Contact {
             let (column, row) = (first_column + cell % side, first_row + cell / side);
             cells.is_lit[row * cells.columns + column]
         };
-        let mut next = BinaryHeap::new();
+        let mut from = Vec::new();
         if self.away.is_empty() {
             // The tip itself is lit where pixels are fine enough.
             let middle = self.half as usize * (side + 1);
-            let around = STEPS[..8]
-                .iter()
-                .filter_map(|&(step, _)| self.beside(middle, step));
-            let begins: Vec<usize> = if is_lit(middle) {
-                vec![middle]
+            if is_lit(middle) {
+                from.push((0.0, middle));
             } else {
-                around.filter(|&it| is_lit(it)).collect()
-            };
-            if begins.is_empty() {
+                let around = AROUND.iter().filter_map(|&step| self.beside(middle, step));
+                from.extend(around.filter(|&it| is_lit(it)).map(|it| (0.0, it)));
+            }
+            if from.is_empty() {
                 return;
             }
             self.away = vec![f32::INFINITY; side * side];
-            for cell in begins {
-                self.away[cell] = 0.0;
-                next.push(Reverse((0, cell)));
-            }
         } else {
             let local = |&cell: &usize| {
                 let column = (cell % cells.columns).checked_sub(first_column)?;
                 (column < side).then(|| (cell / cells.columns - first_row) * side + column)
             };
-            let from = cells
-                .changed
-                .partition_point(|&it| it < first_row * cells.columns);
+            let first = first_row * cells.columns;
+            let begin = cells.changed.partition_point(|&it| it < first);
             let end = (first_row + side) * cells.columns;
-            let changed = cells.changed[from..].iter().take_while(|&&it| it < end);
+            let changed = cells.changed[begin..].iter().take_while(|&&it| it < end);
             let changed: Vec<usize> = changed.filter_map(local).collect();
             for &cell in &changed {
                 self.away[cell] = f32::INFINITY;
             }
+            let steps = AROUND.into_iter().chain(KNIGHTS.map(|it| it.0));
             for &cell in changed.iter().filter(|&&it| is_lit(it)) {
-                for (step, _) in STEPS {
-                    let from = self.beside(cell, step);
-                    if let Some(from) = from.filter(|&it| self.away[it] < self.reach) {
-                        next.push(Reverse((self.away[from].to_bits(), from)));
-                    }
-                }
+                let near = steps.clone().filter_map(|step| self.beside(cell, step));
+                let near = near.filter(|&it| self.away[it] < self.reach);
+                from.extend(near.map(|it| (self.away[it], it)));
             }
         }
-        while let Some(Reverse((bits, cell))) = next.pop() {
-            let here = f32::from_bits(bits);
-            if here > self.away[cell] {
-                continue;
-            }
-            for ([x, y], length) in STEPS {
-                let Some(there) = self.beside(cell, [x, y]).filter(|&it| is_lit(it)) else {
-                    continue;
-                };
-                // A knight passes between two cells, both of which must be lit.
-                let is_between = |step| self.beside(cell, step).is_some_and(&is_lit);
-                let passes = x.abs() + y.abs() < 3
-                    || [[x / 2, y / 2], [x - x / 2, y - y / 2]]
-                        .into_iter()
-                        .all(is_between);
-                let total = here + length;
-                if passes && total <= self.reach && total < self.away[there] {
-                    self.away[there] = total;
-                    next.push(Reverse((total.to_bits(), there)));
+        let mut away = std::mem::take(&mut self.away);
+        ways::spread(&mut away, self.reach, &from, &mut |cell, reach| {
+            let lit = |step| self.beside(cell, step).filter(|&it| is_lit(it));
+            for step in AROUND {
+                if let Some(there) = lit(step) {
+                    reach(there, ways::length(step));
                 }
             }
-        }
+            for (step, between) in KNIGHTS {
+                let there = lit(step).filter(|_| between.iter().all(|&it| lit(it).is_some()));
+                if let Some(there) = there {
+                    reach(there, KNIGHT);
+                }
+            }
+        });
+        self.away = away;
     }
 }
 
@@ -178,7 +138,7 @@ impl Surfaces {
         let contacts = contacts.map(|([x_mm, y_mm, z_mm], reach_mm)| {
             let [column, row] = frame.pixel(x_mm, y_mm);
             // A contact is anywhere in its cell, and so is a pixel.
-            let reach = reach_mm * 1.028 / cell_mm + 1.0;
+            let reach = reach_mm * LONGER / cell_mm + 1.0;
             Contact {
                 z_mm,
                 reach_mm,

@@ -14,6 +14,7 @@ use crate::archive::layer_profile::{self, LayeredModel};
 use crate::archive::{
     self, Canvas, GROUP, Layer, MaskSource, PlacedMesh, PreviewScene, PrintJob, Screen,
 };
+use crate::argsort::sort_by_number;
 use crate::format::Format;
 use crate::inspect::{self, Finding};
 use crate::ldi::LdiError;
@@ -53,13 +54,16 @@ impl Plate {
             return Ok(Vec::new());
         }
         let (masks, _) = self.seen()?;
+        let all = planned.models.iter().zip(&masks.stamps);
+        let supported: Vec<_> = all.filter(|(model, _)| is_supported(model)).collect();
         let mut found = Vec::new();
-        for (model, stamp) in planned.models.iter().zip(&masks.stamps) {
-            if is_supported(model) {
-                let floating = inspect::floating(&stamp.masks, &planned.plan, progress);
-                found.extend(floating.map_err(LdiError::from)?);
-            }
+        for (place, (_, stamp)) in supported.iter().enumerate() {
+            let mut within =
+                |fraction| progress((place as f64 + fraction) / supported.len() as f64);
+            let floating = inspect::floating(&stamp.masks, &planned.plan, &mut within);
+            found.extend(floating.map_err(LdiError::from)?);
         }
+        sort_by_number(&mut found, |it| -it.volume_mm3);
         Ok(found)
     }
 

@@ -650,7 +650,7 @@ fn thickness_warning(planned: &Planned, output: &Output, thickness_mm: &[f64]) -
 
 /// The warning about layers whose exposure is beyond those that are measured.
 fn exposure_warning(resin: &Resin, thickness_mm: &[f64]) -> Option<Warning> {
-    /// Thicknesses are whole bins but for rounding.
+    /// Rounding error of thicknesses, which are whole bins.
     const ROUNDING_MM: f64 = 1e-6;
     let [thinnest_mm, thickest_mm] = resin.measured_mm()?;
     let measured_mm = thinnest_mm - ROUNDING_MM..=thickest_mm + ROUNDING_MM;

@@ -1,11 +1,9 @@
 //! Pillars that hold the ceilings of a void where they are wider than a bridge, each with a head that widens by 45°.
 
-use std::cmp::Reverse;
-use std::collections::BinaryHeap;
-
 use glam::Vec3;
 
 use super::surface_nets::Lattice;
+use crate::ways::{self, AROUND};
 
 /// Distance from a wall up to which a ceiling holds by itself.
 const FROM_WALL_MM: f32 = 1.0;
@@ -80,21 +78,6 @@ impl Pillar {
 /// Largest ratio of a way by steps to the eight nodes around to a straight one.
 const EIGHT_WAYS: f32 = 1.083;
 
-/// Steps from a node to those around it, with their lengths in nodes.
-const AROUND: [([isize; 2], f32); 8] = {
-    const DIAGONAL: f32 = std::f32::consts::SQRT_2;
-    [
-        ([1, 0], 1.0),
-        ([0, 1], 1.0),
-        ([-1, 0], 1.0),
-        ([0, -1], 1.0),
-        ([1, 1], DIAGONAL),
-        ([-1, 1], DIAGONAL),
-        ([-1, -1], DIAGONAL),
-        ([1, -1], DIAGONAL),
-    ]
-};
-
 /// Ceilings of a void, slice by slice from the lowest up.
 pub(super) struct Ceilings {
     lattice: Lattice,
@@ -150,9 +133,7 @@ impl Ceilings {
         // Slopes of 45° and steeper hold by what is below them.
         let inherited = self.held.each_ref().map(|held| {
             let of_node = |&node: &usize| {
-                let around = AROUND
-                    .iter()
-                    .filter_map(|&(step, _)| self.beside(node, step));
+                let around = AROUND.iter().filter_map(|&step| self.beside(node, step));
                 let around = around.filter(|&it| self.solid[it]);
                 (
                     around.map(|it| held[it]).fold(f32::INFINITY, f32::min),
@@ -162,7 +143,7 @@ impl Ceilings {
             new.iter().map(of_node).collect::<Vec<_>>()
         });
         for (which, from) in inherited.into_iter().enumerate() {
-            self.spread(which, from, &is_new);
+            self.spread(which, &from, &is_new);
         }
         let mut open: Vec<usize> = new.to_vec();
         loop {
@@ -193,8 +174,8 @@ impl Ceilings {
             away.length() <= rim_mm
         };
         let above = new.iter().filter(is_above).map(|&node| (0.0, node));
-        let above = above.collect();
-        self.spread(1, above, is_new);
+        let above: Vec<(f32, usize)> = above.collect();
+        self.spread(1, &above, is_new);
         self.pillars.push(pillar);
     }
 
@@ -239,36 +220,27 @@ impl Ceilings {
             .node_mm(node % width, node / width, self.slices)
     }
 
-    fn beside(&self, node: usize, [dx, dy]: [isize; 2]) -> Option<usize> {
-        let Lattice { width, height, .. } = self.lattice;
-        let column = (node % width).checked_add_signed(dx)?;
-        let row = (node / width).checked_add_signed(dy)?;
-        (column < width && row < height).then_some(row * width + column)
+    fn beside(&self, node: usize, step: [isize; 2]) -> Option<usize> {
+        ways::beside(node, step, [self.lattice.width, self.lattice.height])
     }
 
     /// Spreads distances from nodes to the new ones that are connected to them.
-    fn spread(&mut self, which: usize, from: Vec<(f32, usize)>, is_new: &[bool]) {
-        let mut next = BinaryHeap::new();
-        for (away_mm, node) in from {
-            if away_mm < self.held[which][node] {
-                self.held[which][node] = away_mm;
-                next.push(Reverse((away_mm.to_bits(), node)));
-            }
-        }
-        while let Some(Reverse((bits, node))) = next.pop() {
-            let away_mm = f32::from_bits(bits);
-            if away_mm > self.held[which][node] {
-                continue;
-            }
-            for (step, length) in AROUND {
-                let there = self.beside(node, step).filter(|&it| is_new[it]);
-                let total_mm = away_mm + length * self.lattice.spacing_mm;
-                if let Some(there) = there.filter(|&it| total_mm < self.held[which][it]) {
-                    self.held[which][there] = total_mm;
-                    next.push(Reverse((total_mm.to_bits(), there)));
+    fn spread(&mut self, which: usize, from: &[(f32, usize)], is_new: &[bool]) {
+        let Lattice {
+            width,
+            height,
+            spacing_mm,
+            ..
+        } = self.lattice;
+        let held = &mut self.held[which];
+        ways::spread(held, f32::INFINITY, from, &mut |node, reach| {
+            for step in AROUND {
+                let there = ways::beside(node, step, [width, height]);
+                if let Some(there) = there.filter(|&it| is_new[it]) {
+                    reach(there, ways::length(step) * spacing_mm);
                 }
             }
-        }
+        });
     }
 
     /// Returns true if a new node is near a wall or a head, or on a bridge between two.
@@ -296,12 +268,12 @@ impl Ceilings {
             }
             None
         };
-        AROUND.iter().any(|&([dx, dy], length)| {
+        AROUND.iter().any(|&[dx, dy]| {
             let ends = [[dx, dy], [-dx, -dy]].map(steps_to_end);
             let [Some(a), Some(b)] = ends else {
                 return false;
             };
-            (a + b - 1) as f32 * length <= most
+            (a + b - 1) as f32 * ways::length([dx, dy]) <= most
         })
     }
 }

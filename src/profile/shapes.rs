@@ -21,7 +21,7 @@ pub(crate) struct Shapes {
     pub flats: Vec<Flat>,
     /// The normal cones of the surface, those of hidden facets included; empty if no metric needs them.
     cones: Vec<Cone>,
-    /// What lies inside the solid.
+    /// Facets inside the solid, and parts of facets.
     hidden: Hidden,
     /// True if bodies overlap in a way that only rays can resolve.
     pub overlaps: bool,

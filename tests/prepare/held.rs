@@ -390,7 +390,7 @@ fn pieces_that_float_are_named_after_every_preparation() {
     assert_eq!(floating[0].code, Code::LooseBody);
     let ball_mm3 = 4.0 / 3.0 * std::f64::consts::PI * 64.0;
     assert_near(floating[0].volume_mm3, ball_mm3, 0.05 * ball_mm3);
-    // Held on their own, nothing floats; and of a model as it is nothing is said.
+    // With automatic supports nothing floats, and a model without supports is not examined.
     for options in [supported(), Options::default()] {
         let options = Options {
             pitch_mm: Some(0.1),

@@ -6,7 +6,7 @@ use super::super::surface::{self, Squares, Surface};
 use super::held::Held;
 use super::islands::islands;
 use super::loads::{Candidate, Loads};
-use super::rays::Rays;
+use super::rays::{Rays, Stretch};
 use super::{SupportLoad, SupportProfile};
 use crate::argsort::sort_by_number;
 use crate::ldi::Ldi;
@@ -60,7 +60,9 @@ pub(super) fn place(
     let most_mm = profile.reach_mm(profile.self_supporting_slope);
     let mut held = Held::new(&rays, most_mm);
     // The plate holds what stands on it.
-    held.insert(rays.each().filter(|&(ray, it)| stands(rays.at(ray, it))));
+    let standing = (0..rays.stretches.len()).filter(|&it| stands(rays.at(it)));
+    let standing: Vec<usize> = standing.collect();
+    held.insert(&standing);
     let mut points = Points::new(mesh);
     let mut placed: [Vec<Contact>; 2] = Default::default();
     let mut add = |held: &mut Held<'_>, points: &mut Points, at: DVec3| {
@@ -85,7 +87,7 @@ pub(super) fn place(
     let pitch_mm = ldi.grid.pitch_mm;
     let lone_mm = LONE * profile.spacing_mm;
     for island in islands(&rays, |it| held.away_mm(it) <= pitch_mm) {
-        let at = rays.at(island.ray, island.stretch);
+        let at = rays.at(island.stretch);
         let is_near = if island.is_lone {
             points.is_near(at, lone_mm)
         } else if island.joins_soon {
@@ -107,13 +109,12 @@ pub(super) fn place(
         for place in places.iter().filter(these) {
             if held.away_mm(place.stretch) >= profile.reach_mm(place.slope) {
                 add(&mut held, &mut points, place.at);
-                held.insert(std::iter::once((place.ray, place.stretch)));
+                held.insert(&[place.stretch]);
             }
         }
     }
     let [placed, missed] = placed;
-    let standing = rays.each().filter(|&(ray, it)| stands(rays.at(ray, it)));
-    let loads = Loads::new(&rays, profile, standing.map(|it| it.1).collect());
+    let loads = Loads::new(&rays, profile, standing);
     let candidates: Vec<Candidate> = surfaces(mesh, &rays, STEEPEST)
         .filter(|it| !stands(it.at) && !is_protected(it.facet))
         .map(|it| Candidate {
@@ -290,7 +291,6 @@ fn is_hidden(rays: &Rays<'_>, at: DVec3) -> bool {
 /// A place on a surface that does not support itself.
 #[derive(Clone)]
 struct Place {
-    ray: usize,
     stretch: usize,
     at: DVec3,
     facet: u32,
@@ -313,9 +313,9 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
     let around = [[reach, 0], [-reach, 0], [0, reach], [0, -reach]];
     for place in &mut places {
         let rise_mm = (reach as f64 * pitch_mm * (place.slope + 1.0)) as f32;
-        let from_mm = rays.stretches[place.stretch].from_mm;
+        let Stretch { ray, from_mm, .. } = rays.stretches[place.stretch];
         let goes_on = |&step: &[isize; 2]| {
-            let mut there = rays.near(place.ray, step).map(|it| &rays.stretches[it]);
+            let mut there = rays.near(ray, step).map(|it| &rays.stretches[it]);
             there.any(|it| (it.from_mm - from_mm).abs() <= rise_mm)
         };
         place.is_edge = !around.iter().all(goes_on);
@@ -325,8 +325,8 @@ fn overhangs(mesh: &Mesh, rays: &Rays<'_>, profile: &SupportProfile) -> Vec<Plac
 
 /// Rays' lower ends on surfaces of the model that are flatter than a slope.
 fn surfaces(mesh: &Mesh, rays: &Rays<'_>, most_slope: f64) -> impl Iterator<Item = Place> {
-    rays.each().filter_map(move |(ray, place)| {
-        let stretch = &rays.stretches[place];
+    let stretches = rays.stretches.iter().enumerate();
+    stretches.filter_map(move |(place, stretch)| {
         // Ceilings of voids are held from within.
         if stretch.facet >= rays.ldi.classes.model_end() {
             return None;
@@ -337,9 +337,8 @@ fn surfaces(mesh: &Mesh, rays: &Rays<'_>, most_slope: f64) -> impl Iterator<Item
         // A facet's slope is its normal's run over its rise.
         let slope = run / -normal.z;
         (0.0..most_slope).contains(&slope).then(|| Place {
-            ray,
             stretch: place,
-            at: rays.at(ray, place),
+            at: rays.at(place),
             facet: stretch.facet,
             slope,
             is_edge: false,

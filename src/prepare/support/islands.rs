@@ -1,8 +1,8 @@
 //! Islands: pieces of the print that begin with nothing below them.
 
-use super::rays::{AROUND, Rays};
-use crate::argsort::argsort;
+use super::rays::Rays;
 use crate::union_find;
+use crate::ways::AROUND;
 
 /// Height within which an island joins what is held, so that no layer shows it.
 const JOINS_MM: f32 = 0.05;
@@ -10,17 +10,16 @@ const JOINS_MM: f32 = 0.05;
 /// A piece while the sweep rises.
 #[derive(Clone, Copy)]
 struct Piece {
-    /// The stretch at which it begins, and its ray.
-    lowest: (usize, usize),
+    /// The stretch at which it begins.
+    lowest: usize,
     is_held: bool,
     rays: u32,
 }
 
 /// A piece that begins with nothing below it.
 pub(super) struct Island {
-    /// Its lowest stretch, and the ray of that.
+    /// Its lowest stretch.
     pub stretch: usize,
-    pub ray: usize,
     /// True if it joins others before a layer shows it, as far as rays tell: a gap narrower than rays may part them.
     pub joins_soon: bool,
     /// True if no adjacent ray is in it.
@@ -31,18 +30,17 @@ pub(super) struct Island {
 /// already.
 pub(super) fn islands(rays: &Rays<'_>, is_held: impl Fn(usize) -> bool) -> Vec<Island> {
     let stretches = &rays.stretches;
-    let of_ray: Vec<u32> = rays.each().map(|(ray, _)| ray as u32).collect();
     let mut parent: Vec<u32> = (0..stretches.len() as u32).collect();
     let mut pieces: Vec<Piece> = (0..stretches.len())
         .map(|stretch| Piece {
-            lowest: (of_ray[stretch] as usize, stretch),
+            lowest: stretch,
             is_held: is_held(stretch),
             rays: 1,
         })
         .collect();
     let mut found = Vec::new();
     let mut end = |piece: &Piece, z_mm: f32| {
-        let (ray, stretch) = piece.lowest;
+        let stretch = piece.lowest;
         let rise_mm = z_mm - stretches[stretch].from_mm;
         let joins_soon = rise_mm <= JOINS_MM;
         // Higher points of a slope are no islands.
@@ -51,15 +49,13 @@ pub(super) fn islands(rays: &Rays<'_>, is_held: impl Fn(usize) -> bool) -> Vec<I
         }
         found.push(Island {
             stretch,
-            ray,
             joins_soon,
             is_lone: piece.rays == 1,
         });
         !joins_soon
     };
-    for here in argsort(stretches.iter().map(|it| f64::from(it.from_mm))) {
-        let ray = of_ray[here] as usize;
-        let z_mm = stretches[here].from_mm;
+    for here in rays.ascending() {
+        let (ray, z_mm) = (stretches[here].ray, stretches[here].from_mm);
         for step in AROUND {
             for there in rays.near(ray, step) {
                 // Those that begin higher join when it is their turn.
@@ -102,7 +98,7 @@ pub(super) fn islands(rays: &Rays<'_>, is_held: impl Fn(usize) -> bool) -> Vec<I
 
 /// Order in which pieces begin.
 fn order(piece: &Piece, rays: &Rays<'_>) -> (u32, usize) {
-    let z_mm = rays.stretches[piece.lowest.1].from_mm;
+    let z_mm = rays.stretches[piece.lowest].from_mm;
     // Heights above the plate are not negative.
-    (z_mm.max(0.0).to_bits(), piece.lowest.1)
+    (z_mm.max(0.0).to_bits(), piece.lowest)
 }

@@ -7,9 +7,9 @@ use glam::{DVec2, DVec3};
 
 use super::SupportProfile;
 use super::contacts::Contact;
-use super::rays::{AROUND, Rays};
-use crate::argsort::argsort;
+use super::rays::Rays;
 use crate::union_find;
+use crate::ways::AROUND;
 
 /// Radius of the disc at which the pressure of a film is measured.
 const DISC_MM: f64 = 10.0;
@@ -111,7 +111,6 @@ type Regions = Vec<(u32, Region)>;
 pub(super) struct Loads<'a> {
     rays: &'a Rays<'a>,
     profile: &'a SupportProfile,
-    of_ray: Vec<u32>,
     order: Vec<usize>,
     /// Stretches that stand on the plate.
     standing: Vec<usize>,
@@ -120,8 +119,7 @@ pub(super) struct Loads<'a> {
 impl<'a> Loads<'a> {
     pub fn new(rays: &'a Rays<'a>, profile: &'a SupportProfile, standing: Vec<usize>) -> Self {
         Self {
-            of_ray: rays.each().map(|(ray, _)| ray as u32).collect(),
-            order: argsort(rays.stretches.iter().map(|it| f64::from(it.from_mm))),
+            order: rays.ascending(),
             rays,
             profile,
             standing,
@@ -180,14 +178,20 @@ impl<'a> Loads<'a> {
         let mut largest = Vec::new();
         for _ in 0..3 {
             largest = self.largest(&mut regions, contacts);
+            let mut is_wider = false;
             for (contact, load) in contacts.iter_mut().zip(&largest).skip(fixed) {
                 let most_n = self.most_n(contact.diameter_mm);
                 if load.newtons > most_n {
                     let wider = (load.newtons / most_n).sqrt();
                     // Whole micrometres, as in reports.
                     let wider_mm = (contact.diameter_mm * wider * 1e3).ceil() / 1e3;
-                    contact.diameter_mm = wider_mm.min(LARGEST * self.profile.contact_mm);
+                    let wider_mm = wider_mm.min(LARGEST * self.profile.contact_mm);
+                    is_wider |= wider_mm != contact.diameter_mm;
+                    contact.diameter_mm = wider_mm;
                 }
+            }
+            if !is_wider {
+                break;
             }
         }
         let all = largest.into_iter();
@@ -240,7 +244,7 @@ impl<'a> Loads<'a> {
             let z_mm = slice as f64 * step_mm;
             while let Some(here) = next.next_if(|&it| f64::from(rays.stretches[it].from_mm) < z_mm)
             {
-                let ray = self.of_ray[here] as usize;
+                let ray = rays.stretches[here].ray;
                 for there in AROUND.iter().flat_map(|&step| rays.near(ray, step)) {
                     let begins = rays.stretches[there].from_mm <= rays.stretches[here].from_mm;
                     if begins && rays.overlap(here, there) {
@@ -273,8 +277,7 @@ impl<'a> Loads<'a> {
                     }
                     for &stretch in &self.standing {
                         if union_find::find(&mut parent, stretch as u32) == root {
-                            let at = rays.at(self.of_ray[stretch] as usize, stretch);
-                            springs.add(at.truncate(), pitch_mm * pitch_mm);
+                            springs.add(rays.at(stretch).truncate(), pitch_mm * pitch_mm);
                         }
                     }
                     let load = springs.loads(force_n, middle);
@@ -304,8 +307,7 @@ impl<'a> Loads<'a> {
         };
         let mut regions = Regions::new();
         let mut last = 0;
-        for (ray, stretch) in rays.each() {
-            let it = &rays.stretches[stretch];
+        for (stretch, it) in rays.stretches.iter().enumerate() {
             if !(it.from_mm < z_mm && z_mm < it.to_mm) {
                 continue;
             }
@@ -324,12 +326,12 @@ impl<'a> Loads<'a> {
             let [sides, corners] = [&AROUND[..4], &AROUND[4..]].map(|steps| {
                 let dark = steps
                     .iter()
-                    .filter(|&&step| !is_lit(rays.beside(ray, step)));
+                    .filter(|&&step| !is_lit(rays.beside(it.ray, step)));
                 dark.count() as f64
             });
             region.rays += 1.0;
             region.edges += sides + corners * std::f64::consts::FRAC_1_SQRT_2;
-            region.sum += rays.at(ray, stretch).truncate();
+            region.sum += rays.at(stretch).truncate();
         }
         regions
     }

@@ -2,11 +2,14 @@
 
 use glam::DVec3;
 
+use crate::argsort::argsort;
 use crate::ldi::Ldi;
 use crate::model::Winding;
+use crate::ways::{AROUND, beside};
 
 /// A range of a ray in the print.
 pub(super) struct Stretch {
+    pub ray: usize,
     pub from_mm: f32,
     pub to_mm: f32,
     /// Through which the ray enters: of the model, or of a void.
@@ -20,18 +23,6 @@ pub(super) struct Rays<'a> {
     starts: Vec<u32>,
     pub stretches: Vec<Stretch>,
 }
-
-/// Offsets to the eight rays around one.
-pub(super) const AROUND: [[isize; 2]; 8] = [
-    [1, 0],
-    [0, 1],
-    [-1, 0],
-    [0, -1],
-    [1, 1],
-    [-1, 1],
-    [-1, -1],
-    [1, -1],
-];
 
 impl<'a> Rays<'a> {
     pub fn new(ldi: &'a Ldi) -> Self {
@@ -53,6 +44,7 @@ impl<'a> Rays<'a> {
                         // Bodies that touch are one.
                         Some(last) if entry.0 <= last.to_mm => last.to_mm = hit.z_mm,
                         _ => rays.stretches.push(Stretch {
+                            ray,
                             from_mm: entry.0,
                             to_mm: hit.z_mm,
                             facet: entry.1,
@@ -74,11 +66,9 @@ impl<'a> Rays<'a> {
 
     /// The ray at an offset in columns and rows; none beyond the grid.
     #[inline]
-    pub fn beside(&self, ray: usize, [dx, dy]: [isize; 2]) -> Option<usize> {
-        let (width, height) = (self.ldi.grid.width as usize, self.ldi.grid.height as usize);
-        let x = (ray % width).checked_add_signed(dx)?;
-        let y = (ray / width).checked_add_signed(dy)?;
-        (x < width && y < height).then_some(y * width + x)
+    pub fn beside(&self, ray: usize, step: [isize; 2]) -> Option<usize> {
+        let grid = &self.ldi.grid;
+        beside(ray, step, [grid.width as usize, grid.height as usize])
     }
 
     /// The places of the stretches of the ray at an offset.
@@ -87,19 +77,28 @@ impl<'a> Rays<'a> {
         self.beside(ray, step).map_or(0..0, |ray| self.of_ray(ray))
     }
 
-    /// The lower end of a stretch of a ray.
-    pub fn at(&self, ray: usize, stretch: usize) -> DVec3 {
+    /// The lower end of a stretch.
+    pub fn at(&self, stretch: usize) -> DVec3 {
+        let Stretch { ray, from_mm, .. } = self.stretches[stretch];
         let width = self.ldi.grid.width as usize;
         let at = self
             .ldi
             .grid
             .centre_mm((ray % width) as u32, (ray / width) as u32);
-        at.extend(f64::from(self.stretches[stretch].from_mm))
+        at.extend(f64::from(from_mm))
     }
 
-    /// All rays with the places of their stretches.
-    pub fn each(&self) -> impl Iterator<Item = (usize, usize)> {
-        (0..self.ldi.rays()).flat_map(|ray| self.of_ray(ray).map(move |stretch| (ray, stretch)))
+    /// The stretches from the one that begins lowest up.
+    pub fn ascending(&self) -> Vec<usize> {
+        argsort(self.stretches.iter().map(|it| f64::from(it.from_mm)))
+    }
+
+    /// The stretches of the ray nearest to a point, and of those around it.
+    pub fn stretches_at(&self, at: DVec3) -> impl Iterator<Item = usize> {
+        let around = AROUND.into_iter().chain([[0, 0]]);
+        let middle = self.nearest(at).into_iter();
+        let steps = middle.flat_map(move |middle| around.clone().map(move |step| (middle, step)));
+        steps.flat_map(|(middle, step)| self.near(middle, step))
     }
 
     /// The ray nearest to a point; none beyond the grid.
@@ -114,11 +113,8 @@ impl<'a> Rays<'a> {
 
     /// The stretch whose lower end is nearest to a point, of the rays around it.
     pub fn stretch_at(&self, at: DVec3) -> Option<usize> {
-        let middle = self.nearest(at)?;
-        let around = AROUND.into_iter().chain([[0, 0]]);
-        let rays = around.filter_map(|step| self.beside(middle, step));
-        let stretches = rays.flat_map(|ray| self.of_ray(ray).map(move |it| (ray, it)));
-        let away_mm = stretches.map(|(ray, it)| (self.at(ray, it).distance(at), it));
+        let stretches = self.stretches_at(at);
+        let away_mm = stretches.map(|it| (self.at(it).distance(at), it));
         let nearest = away_mm.reduce(|a, b| if b.0 < a.0 { b } else { a });
         nearest.map(|it| it.1)
     }

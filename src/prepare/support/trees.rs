@@ -419,38 +419,38 @@ impl<'a> Trees<'a> {
                 }
             }
         }
-        let on_plate = self.feet.iter().filter(|foot| foot.1 == End::Plate);
-        let trunks: Vec<Vec<DVec3>> = on_plate.map(|foot| self.trunk(foot.0, &above)).collect();
-        // Heights at which braces hold each trunk.
-        let mut braced_mm = vec![Vec::new(); trunks.len()];
-        for [a, b] in nearest_pairs(&trunks, self.profile.branch_mm) {
+        let trunks: Vec<Vec<DVec3>> = self
+            .feet
+            .iter()
+            .map(|foot| self.trunk(foot.0, &above))
+            .collect();
+        let places = 0..trunks.len();
+        let on_plate: Vec<usize> = places.filter(|&it| self.feet[it].1 == End::Plate).collect();
+        // Heights at which each trunk is held: by its ends, and by braces.
+        let ends_mm = trunks.iter().map(|it| vec![it[0].z, it[it.len() - 1].z]);
+        let mut held_mm: Vec<Vec<f64>> = ends_mm.collect();
+        let feet: Vec<DVec3> = on_plate.iter().map(|&it| trunks[it][0]).collect();
+        for pair in nearest_pairs(&feet, self.profile.branch_mm) {
+            let pair = pair.map(|it| on_plate[it]);
             let from = self.braces.len();
-            self.brace_pair(&trunks[a], &trunks[b]);
+            let [a, b] = pair.map(|it| &trunks[it]);
+            self.brace_pair(a, b);
             // They go from one to the other in turn, so each holds both.
-            let heights_mm = self.braces[from..]
-                .iter()
-                .map(|[low, high]| f64::midpoint(low.z, high.z));
-            let heights_mm: Vec<f64> = heights_mm.collect();
-            braced_mm[a].extend(&heights_mm);
-            braced_mm[b].extend(&heights_mm);
+            for [low, high] in &self.braces[from..] {
+                for trunk in pair {
+                    held_mm[trunk].push(f64::midpoint(low.z, high.z));
+                }
+            }
         }
         self.least_mm = vec![0.0; self.nodes.len()];
-        let feet: Vec<u32> = self.feet.iter().map(|foot| foot.0).collect();
-        let on_plate = self.feet.iter().filter(|foot| foot.1 == End::Plate);
-        let braced: Vec<(u32, Vec<f64>)> = on_plate.map(|foot| foot.0).zip(braced_mm).collect();
-        for foot in feet {
-            let braced_mm = braced.iter().find(|it| it.0 == foot);
-            self.stiffen(foot, &above, braced_mm.map_or(&[], |it| &it.1));
+        for (place, heights_mm) in held_mm.into_iter().enumerate() {
+            self.stiffen(self.feet[place].0, &above, heights_mm);
         }
     }
 
-    /// Makes a pillar so thick that it does not buckle between what holds it. By Euler, the force that it bears grows with the fourth power of
-    /// its diameter and falls with the square of its free length, so the diameter grows with the root of the length.
-    fn stiffen(&mut self, foot: u32, above: &[u32], braced_mm: &[f64]) {
-        let trunk = self.trunk(foot, above);
-        let (bottom_mm, top_mm) = (trunk[0].z, trunk[trunk.len() - 1].z);
-        let mut heights_mm = vec![bottom_mm, top_mm];
-        heights_mm.extend(braced_mm);
+    /// Makes a pillar so thick that it does not buckle between the heights at which it is held. By Euler, the force that it bears grows with the
+    /// fourth power of its diameter and falls with the square of its free length, so the diameter grows with the root of the length.
+    fn stiffen(&mut self, foot: u32, above: &[u32], mut heights_mm: Vec<f64>) {
         argsort::sort_by_number(&mut heights_mm, |it| *it);
         let gaps_mm = heights_mm.windows(2).map(|pair| pair[1] - pair[0]);
         let free_mm = gaps_mm.fold(0.0, f64::max);
@@ -612,19 +612,19 @@ fn at_height(points: &[DVec3], z: f64) -> Option<DVec3> {
 
 /// Pairs that join all pillars within reach of each other by the least distances between their feet: a minimum spanning
 /// tree.
-fn nearest_pairs(trunks: &[Vec<DVec3>], reach_mm: f64) -> Vec<[usize; 2]> {
-    let away_mm = |a: usize, b: usize| trunks[a][0].distance(trunks[b][0]);
-    let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); trunks.len()];
-    let mut is_joined = vec![false; trunks.len()];
+fn nearest_pairs(feet: &[DVec3], reach_mm: f64) -> Vec<[usize; 2]> {
+    let away_mm = |a: usize, b: usize| feet[a].distance(feet[b]);
+    let mut nearest: Vec<(f64, usize)> = vec![(f64::INFINITY, 0); feet.len()];
+    let mut is_joined = vec![false; feet.len()];
     let mut pairs = Vec::new();
-    let mut next = (!trunks.is_empty()).then_some(0);
+    let mut next = (!feet.is_empty()).then_some(0);
     while let Some(joined) = next {
         is_joined[joined] = true;
         if nearest[joined].0 <= reach_mm {
             pairs.push([nearest[joined].1, joined]);
         }
         next = None;
-        for other in (0..trunks.len()).filter(|&it| !is_joined[it]) {
+        for other in (0..feet.len()).filter(|&it| !is_joined[it]) {
             let away = away_mm(joined, other);
             if away < nearest[other].0 {
                 nearest[other] = (away, joined);

@@ -1,5 +1,5 @@
 /**
- * Messages with named placeholders, in English and in the language of a dictionary. `{name}` is a value as it stands, `{name|mm}` one in a
+ * Messages with named placeholders, in English and in the language of a dictionary. `{name}` is a value as given, `{name|mm}` one in a
  * format, `{name|one:# layer|other:# layers}` the form for a number, and `{name|names.xml}` the message `names.xml.…` that the value names.
  * `best.layers` is a field of the value `best`.
  */
