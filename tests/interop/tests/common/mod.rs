@@ -82,7 +82,7 @@ pub fn scene(screen: Screen) -> solids::Triangles {
 pub fn resin() -> Resin {
     Resin {
         name: "clear".to_owned(),
-        exposures: vec![[0.05, 2.0], [0.07, 2.75], [0.12, 4.5]],
+        exposures: vec![[0.05, 2.0], [0.07, 2.75], [0.12, 4.5], [0.15, 5.5]],
         bottom_layers: 2,
         bottom_exposure_s: 25.0,
         wait_s: 2.0,
