@@ -128,6 +128,13 @@ pub enum Warning {
         /// Number of such points.
         points: usize,
     },
+    /// Bodies of the file are its supports: printed, and left out of profiles and compensation.
+    OwnSupports {
+        /// Number of places where they hold the model.
+        tips: usize,
+        /// True if supports of the options replace them.
+        replaced: bool,
+    },
     /// Rays pass through holes of the mesh, and are closed by the caps alone.
     UnclosedRays {
         /// Number of such rays.
@@ -357,6 +364,16 @@ impl Warning {
                 "{} without a support, since none gets there; turn the model, or choose lighter supports",
                 counted(*points, "point")
             ),
+            Self::OwnSupports { tips, replaced } => write!(
+                f,
+                "supports of the file hold the model at {}; {}",
+                counted(*tips, "point"),
+                if *replaced {
+                    "those that you ask for replace them"
+                } else {
+                    "they are printed as they are, or can be read as parts of the model"
+                }
+            ),
             _ => Ok(()),
         }
     }
@@ -425,7 +442,8 @@ impl std::fmt::Display for Warning {
             | Self::Undrained { .. }
             | Self::ClosedCavities { .. }
             | Self::SupportAstray { .. }
-            | Self::Unsupported { .. } => self.of_preparing(f),
+            | Self::Unsupported { .. }
+            | Self::OwnSupports { .. } => self.of_preparing(f),
             Self::UnclosedRays { unclosed, rays } => write!(
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which caps close; look at the masks"

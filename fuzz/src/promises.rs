@@ -27,6 +27,7 @@ pub const FACTS: FileFacts = FileFacts {
         plate: None,
         surfaces: false,
         curved_caps: false,
+        supports_as_model: false,
     },
     unit: None,
     skipped_objects: 0,

@@ -93,6 +93,7 @@ const MODEL: ModelFile = ModelFile {
     plate: None,
     surfaces: false,
     curved_caps: false,
+    supports_as_model: false,
 };
 
 /// The report of that plan, as the seed of [`plan`].

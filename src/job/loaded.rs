@@ -67,7 +67,12 @@ impl LoadedModel {
     /// [`Error::Mesh`].
     pub fn of_triangles(triangles: &[[Vec3; 3]], facts: FileFacts) -> Result<Self, Error> {
         let clock = Instant::now();
-        let mesh = Mesh::with_caps(triangles, facts.file.curved_caps)?;
+        let all_curved = facts.file.curved_caps;
+        let mut mesh = Mesh::with_caps(triangles, all_curved)?;
+        if !facts.file.supports_as_model {
+            // Files that state a unit are read in millimetres.
+            mesh = mesh.with_own_supports(triangles, all_curved, 1.0)?;
+        }
         Ok(Self {
             mesh,
             facts,
@@ -233,9 +238,10 @@ impl LoadedModel {
             sampling, layering, ..
         } = &self.resolved(options)?;
         let mut mesh = self.mesh.on_plate(&sampling.pose)?;
-        mesh.lift(sampling.lift_mm());
+        let lift_mm = sampling.lift_mm(&mesh);
+        mesh.lift(lift_mm);
         let size = mesh.bounds().size();
-        let height_mm = sampling.height_mm(size.z);
+        let height_mm = sampling.height_mm(size.z, lift_mm);
         let bins = Bins::of_height(height_mm, layering.bin_mm)?;
         let facet_bins = FacetBins::of(&mesh, bins);
         let extra = || Ok::<_, Error>(Extra::of(&mesh, layering.metric, bins));
@@ -246,7 +252,7 @@ impl LoadedModel {
         let preview = Preview {
             layers: plan.layers(),
             size_mm: size.to_array(),
-            lift_mm: sampling.lift_mm(),
+            lift_mm,
             z_mm: plan.z_mm(),
             thickness_mm: plan.thickness_mm(),
             metric: layering.metric,

@@ -251,7 +251,10 @@ impl LoadedModel {
 
     /// Checks options that are invalid in every direction. That is an error, not a reason to exclude a direction.
     fn check_for_all_directions(&self, resolved: &Resolved) -> Result<(), Error> {
-        match resolved.sampling.grid(&self.mesh.bounds()) {
+        match resolved
+            .sampling
+            .grid(&self.mesh.bounds(), resolved.sampling.made_lift_mm())
+        {
             Err(error) if exclusion(&error).is_none() => Err(error.into()),
             _ => Ok(()),
         }
@@ -306,7 +309,11 @@ impl Evaluator<'_> {
     }
 
     fn measure(&self, direction: [f64; 3]) -> Candidate {
-        let fits = |bounds: &Bounds| match self.resolved.sampling.grid(bounds) {
+        let fits = |bounds: &Bounds| match self
+            .resolved
+            .sampling
+            .grid(bounds, self.resolved.sampling.made_lift_mm())
+        {
             Err(error) => exclusion(&error).map_or(Ok(()), Err),
             Ok(_) => Ok(()),
         };

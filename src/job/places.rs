@@ -193,10 +193,11 @@ impl Job {
         let own = options.of_model(model);
         let shared = resolved.sampling.clone();
         let supports = own.supports.or(shared.supports);
+        let is_supported = supports.is_some() || !self.models[model].mesh.own_tips().is_empty();
         Sampling {
             pose: self.pose_of(options, resolved, model).turned(turns),
             hollow: own.hollow.or(shared.hollow),
-            wider_mm: resolved.layering.support_wider_mm(supports.is_some()),
+            wider_mm: resolved.layering.support_wider_mm(is_supported),
             supports,
             ..shared
         }

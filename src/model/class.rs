@@ -68,6 +68,12 @@ impl FacetClasses {
         *self.starts.get(class as usize).unwrap_or(&self.count) as usize
     }
 
+    /// The classes after the facets of supports are removed.
+    pub(super) fn without_supports(mut self) -> Self {
+        self.count = self.starts[2];
+        self
+    }
+
     /// The classes after `count` facets are inserted at the end of `class`.
     pub(super) fn grown(mut self, class: FacetClass, count: usize) -> Self {
         for start in &mut self.starts[class as usize..] {

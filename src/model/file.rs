@@ -24,6 +24,9 @@ pub struct ModelFile {
     /// See [`ReadOptions::curved_caps`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub curved_caps: bool,
+    /// See [`ReadOptions::supports_as_model`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub supports_as_model: bool,
 }
 
 impl ModelFile {
@@ -35,6 +38,7 @@ impl ModelFile {
             plate: None,
             surfaces: false,
             curved_caps: false,
+            supports_as_model: false,
         }
     }
 
@@ -44,6 +48,7 @@ impl ModelFile {
             plate_number: self.plate.map(|plate| plate.plate_number),
             surfaces: self.surfaces,
             curved_caps: self.curved_caps,
+            supports_as_model: self.supports_as_model,
         }
     }
 }
@@ -70,6 +75,7 @@ impl FileFacts {
                 plate: contents.plate,
                 surfaces: options.surfaces,
                 curved_caps: options.curved_caps,
+                supports_as_model: options.supports_as_model,
                 ..ModelFile::of(bytes)
             },
             unit: contents.unit,

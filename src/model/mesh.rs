@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use glam::{DVec3, Vec3};
-use rustc_hash::FxHashMap;
+use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 
 use super::bodies::misoriented;
@@ -12,6 +12,7 @@ use super::curved_cap::Bent;
 use super::edges::{Neighbours, edges};
 use super::facing::facing;
 use super::holes;
+use super::own_supports;
 use super::pose::{Pose, rotation_matrix};
 
 /// Error of making a printable mesh from triangles.
@@ -99,6 +100,8 @@ pub struct Mesh {
     pub contradictory_edges: usize,
     /// The first of the vertices that are centroids of fans, if there are any.
     centroids_from: u32,
+    /// The vertices, from one to another, that are the tips of supports in the file. No facet has them.
+    tips: [u32; 2],
 }
 
 /// The most that a model may measure in x, y or z.
@@ -175,6 +178,7 @@ impl Mesh {
             bodies: 0,
             contradictory_edges,
             centroids_from,
+            tips: [0; 2],
         };
         let mut turn_over = |mesh: &mut Self, wrong: &[bool]| {
             turn(&mut mesh.facets, wrong);
@@ -210,6 +214,86 @@ impl Mesh {
             self.add(&bodies.vertices, &bodies.facets, FacetClass::Void);
         }
         Ok(self)
+    }
+
+    /// The mesh of `triangles` with its supports in a class of their own, if some of its bodies are supports. `unit_mm` is the unit of its
+    /// lengths.
+    ///
+    /// # Errors
+    /// As [`Self::from_triangles`].
+    pub fn with_own_supports(
+        self,
+        triangles: &[[Vec3; 3]],
+        all_curved: bool,
+        unit_mm: f64,
+    ) -> Result<Self, MeshError> {
+        let Some(found) = own_supports::find(&self, unit_mm) else {
+            return Ok(self);
+        };
+        let key = |corner: Vec3| (corner + Vec3::ZERO).to_array().map(f32::to_bits);
+        let theirs = self.facets.iter().zip(&found.is_support);
+        let theirs = theirs.filter(|it| *it.1).flat_map(|it| *it.0);
+        let theirs: FxHashSet<_> = theirs.map(|it| key(self.vertices[it as usize])).collect();
+        let (supports, model): (Vec<_>, Vec<_>) = triangles
+            .iter()
+            .copied()
+            .partition(|corners| theirs.contains(&key(corners[0])));
+        let supports = Self::from_triangles(&supports)?;
+        let mut mesh = Self::with_caps(&model, all_curved)?;
+        mesh.add(&supports.vertices, &supports.facets, FacetClass::Support);
+        let first = mesh.vertices.len() as u32;
+        mesh.vertices
+            .extend(found.tips.iter().map(|tip| tip.as_vec3()));
+        mesh.tips = [first, mesh.vertices.len() as u32];
+        Ok(mesh)
+    }
+
+    /// Places where supports of the file hold the model; none without such supports.
+    pub fn own_tips(&self) -> &[Vec3] {
+        let [from, to] = self.tips;
+        &self.vertices[from as usize..to as usize]
+    }
+
+    /// The mesh without supports.
+    #[must_use]
+    pub fn bare(&self) -> Self {
+        let facets = self.facets[..self.classes.end(FacetClass::Void)].to_vec();
+        Self {
+            vertices: self.vertices.clone(),
+            classes: self.classes.without_supports(),
+            facets,
+            neighbours: Arc::clone(&self.neighbours),
+            tips: [0; 2],
+            ..*self
+        }
+    }
+
+    /// Distance by which supports reach below the surface; 0 without supports.
+    pub fn raised_mm(&self) -> f64 {
+        let supports = self.of_class(FacetClass::Support);
+        if supports.is_empty() {
+            return 0.0;
+        }
+        let place = |vertex: usize| self.vertices[vertex].as_dvec3();
+        let below_mm = self.bounds().min.z - Self::bounds_of(supports, place).min.z;
+        // Without the noise of single precision.
+        (below_mm.max(0.0) * 1e6).round() / 1e6
+    }
+
+    /// Moves the surface of supports outward, as seen from inside each of its bodies.
+    pub fn widen_supports(&mut self, by_mm: f64) {
+        let mut normals: FxHashMap<u32, DVec3> = FxHashMap::default();
+        for corners in self.of_class(FacetClass::Support) {
+            let [a, b, c] = corners.map(|vertex| self.vertices[vertex as usize].as_dvec3());
+            for &vertex in corners {
+                *normals.entry(vertex).or_default() += (b - a).cross(c - a);
+            }
+        }
+        for (vertex, normal) in normals {
+            let at = &mut self.vertices[vertex as usize];
+            let level = normal.with_z(0.0).normalize_or_zero();
+            *at = (at.as_dvec3() + level * by_mm).as_vec3();
+        }
     }
 
     /// The corners of a facet in double precision.

@@ -10,6 +10,7 @@ mod facing;
 mod file;
 mod holes;
 mod mesh;
+mod own_supports;
 mod pose;
 pub mod read;
 pub mod saliency;

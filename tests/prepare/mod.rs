@@ -4,6 +4,7 @@ mod drain;
 mod held;
 mod hollow;
 mod jobs;
+mod own_supports;
 mod support;
 
 use crate::common::Slicer;

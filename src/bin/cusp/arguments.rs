@@ -164,6 +164,9 @@ pub struct ReadChoices {
     surfaces: bool,
     /// Close every hole by a curved cap, where the generalised winding number is one half, and not only wide bent ones
     #[arg(long)]
+    /// Read bodies that look like supports as parts of the model, and not as its supports
+    #[arg(long)]
+    supports_as_model: bool,
     curved_caps: bool,
 }
 
@@ -172,6 +175,7 @@ impl ReadChoices {
         ReadOptions {
             plate_number: self.plate,
             surfaces: self.surfaces,
+            supports_as_model: self.supports_as_model,
             curved_caps: self.curved_caps,
         }
     }

@@ -68,6 +68,9 @@ pub struct JobModel {
     /// True if every hole is closed by a curved cap.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub curved_caps: bool,
+    /// True if bodies that look like supports are parts of the model.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub supports_as_model: bool,
 }
 
 fn one() -> usize {
@@ -81,6 +84,7 @@ impl JobModel {
             plate: reading.plate_number,
             surfaces: reading.surfaces,
             curved_caps: reading.curved_caps,
+            supports_as_model: reading.supports_as_model,
             ..Self::of(&ModelOptions {
                 copies,
                 ..ModelOptions::default()
@@ -103,6 +107,7 @@ impl JobModel {
             plate: None,
             surfaces: false,
             curved_caps: false,
+            supports_as_model: false,
         }
     }
 
@@ -112,6 +117,7 @@ impl JobModel {
             plate_number: self.plate,
             surfaces: self.surfaces,
             curved_caps: self.curved_caps,
+            supports_as_model: self.supports_as_model,
         }
     }
 

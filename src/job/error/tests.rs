@@ -361,6 +361,7 @@ fn warnings() -> Vec<Warning> {
         SupportAstray { point_number: 2 },
         Unsupported { points: 3 },
         UnclosedRays { unclosed: 12, rays: 345 },
+        OwnSupports { tips: 42, replaced: false },
         MissedBodies { bodies: 2, at_mm: [1.25, -2.5, 12.75] },
         ToleranceExceeded { planner: "greedy".to_owned(), metric, tolerance: 0.05, max_error: 0.0712 },
         ToleranceExceededOnMesh { metric, tolerance: 0.05, max_error: 0.0712 },

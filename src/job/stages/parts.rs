@@ -10,7 +10,7 @@ use crate::grid::{Bins, Grid, GridError};
 use crate::growth::Growth;
 use crate::job::{Backend, GpuMethod, Minimize, Planner};
 use crate::mask::{Samples, Side};
-use crate::model::{Bounds, Pose};
+use crate::model::{Bounds, Mesh, Pose};
 use crate::plan::Limits;
 use crate::plan::optimal::Objective;
 use crate::prepare::{Hollowing, Supporting};
@@ -146,23 +146,22 @@ impl Layering {
 }
 
 impl Sampling {
-    /// The pixels of the masks for a model of these bounds.
+    /// The pixels of the masks for a model of these bounds, lifted above the plate by `lift_mm`.
     ///
     /// # Errors
     /// [`GridError`], also if the model does not fit the printer.
-    pub fn grid(&self, bounds: &Bounds) -> Result<Grid, GridError> {
+    pub fn grid(&self, bounds: &Bounds, lift_mm: f64) -> Result<Grid, GridError> {
         let grid = match self.raster {
             Raster::Plate { pixels, pitch_mm } => Grid::plate(bounds, pixels, pitch_mm)?,
             Raster::OfPitch { pitch_mm } => Grid::of_pitch(bounds, pitch_mm)?,
             Raster::Around { pixels } => Grid::around(bounds, pixels)?,
         };
-        let model_mm_z = bounds.size().z + self.lift_mm();
+        let model_mm_z = bounds.size().z + lift_mm;
         match self.greatest_height_mm {
             Some(printer_mm_z) if model_mm_z > printer_mm_z => Err(GridError::ModelTooHigh {
                 model_mm_z,
                 printer_mm_z,
-                fitting_scale: ((printer_mm_z - self.lift_mm()) / bounds.size().z * 1e4).floor()
-                    / 1e4,
+                fitting_scale: ((printer_mm_z - lift_mm) / bounds.size().z * 1e4).floor() / 1e4,
             }),
             _ => Ok(grid),
         }
@@ -200,18 +199,25 @@ impl Sampling {
         weights.filter(|_| protect.any(|it| it))
     }
 
-    /// Distance by which supports lift the model above the plate.
-    pub fn lift_mm(&self) -> f64 {
+    /// Distance by which supports of the options lift the model above the plate.
+    pub fn made_lift_mm(&self) -> f64 {
         let supports = self.supports.as_ref();
-        supports.map_or(0.0, |supports| supports.profile().lift_mm)
+        supports.map_or(0.0, |it| it.profile().lift_mm)
+    }
+
+    /// The same, or that of the supports in the model's file.
+    pub fn lift_mm(&self, model: &Mesh) -> f64 {
+        match self.supports {
+            Some(_) => self.made_lift_mm(),
+            None => model.raised_mm(),
+        }
     }
 
     /// The requested height, or `size_mm` rounded to the nanometre, which removes the noise of single precision; plus
     /// the lift of supports.
-    pub fn height_mm(&self, size_mm: f64) -> f64 {
+    pub fn height_mm(&self, size_mm: f64, lift_mm: f64) -> f64 {
         let asked_mm = self.pose.height_mm;
-        let model_mm = asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6);
-        model_mm + self.lift_mm()
+        asked_mm.unwrap_or_else(|| (size_mm * 1e6).round() / 1e6) + lift_mm
     }
 }
 

@@ -145,6 +145,10 @@ impl Prepared {
             mesh.lift(made.lift_mm);
             warnings.extend(support_warnings(&made));
             supports = Some(made);
+        } else if !mesh.own_tips().is_empty() {
+            let lift_mm = mesh.raised_mm();
+            supports = Some(Supports::of_file(mesh.own_tips(), lift_mm));
+            mesh.lift(lift_mm);
         }
         timings.ldi += ms_since(clock);
         Ok(Self {
@@ -186,6 +190,11 @@ impl Prepared {
         }
     }
 
+    /// Distance by which supports lift the model above the plate.
+    pub fn lift_mm(&self) -> f64 {
+        self.supports.as_ref().map_or(0.0, |it| it.lift_mm)
+    }
+
     /// The same after some turns of 15° about z, with the same voids and supports.
     ///
     /// # Errors
@@ -195,9 +204,8 @@ impl Prepared {
             return Ok(Arc::clone(self));
         }
         let turn = Pose::default().turned(turns);
-        let lift_mm = self.supports.as_ref().map_or(0.0, |it| it.lift_mm);
         let mut mesh = self.mesh.on_plate(&turn)?;
-        mesh.lift(lift_mm);
+        mesh.lift(self.lift_mm());
         let rotation = rotation_matrix(turn.rotation.unwrap_or([0.0, 0.0, 0.0, 1.0]))?;
         // Its middle has moved, by the same vector as any vertex.
         let [before, after] = [&self.mesh, &mesh].map(|it| it.vertices[0].as_dvec3());
@@ -244,9 +252,9 @@ impl Prepared {
     /// [`GridError`], also if the model or its supports do not fit the printer.
     pub fn grid(&self, sampling: &Sampling) -> Result<Grid, GridError> {
         let mut model = self.mesh.bounds();
-        let lift = DVec3::new(0.0, 0.0, sampling.lift_mm());
+        let lift = DVec3::new(0.0, 0.0, self.lift_mm());
         (model.min, model.max) = (model.min - lift, model.max - lift);
-        let grid = sampling.grid(&model)?;
+        let grid = sampling.grid(&model, self.lift_mm())?;
         match self.supports {
             Some(_) => sampling.grid_around(grid, &self.printed),
             None => Ok(grid),
@@ -264,11 +272,20 @@ impl Unsupported {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
         let clock = Instant::now();
-        let mut mesh = model.on_plate(&sampling.pose)?;
-        sampling.grid(&mesh.bounds())?;
+        // Supports of the options replace those of the file.
+        let bare =
+            (sampling.supports.is_some() && !model.own_tips().is_empty()).then(|| model.bare());
+        let mut mesh = bare.as_ref().unwrap_or(model).on_plate(&sampling.pose)?;
+        mesh.widen_supports(sampling.wider_mm);
+        sampling.grid(&mesh.bounds(), sampling.lift_mm(&mesh))?;
         timings.load += ms_since(clock);
         let clock = Instant::now();
         let mut warnings = mesh_warnings(&mesh);
+        let tips = model.own_tips().len();
+        warnings.extend((tips > 0).then_some(Warning::OwnSupports {
+            tips,
+            replaced: bare.is_some(),
+        }));
         let mut hollowed = None;
         if let Some(hollowing) = &sampling.hollow {
             hollowed = hollow(&mut mesh, hollowing, protected, &mut warnings, progress)?;

@@ -184,7 +184,7 @@ impl Sampler {
         let supports = prepared.supports.as_ref();
         let supported = supports.map(|supports| Supported::of(supports, survey.support_mm3));
         Ok(Sampled {
-            height_mm: sampling.height_mm(mesh.bounds().size().z),
+            height_mm: sampling.height_mm(mesh.bounds().size().z, prepared.lift_mm()),
             sampling: sampling.clone(),
             prepared,
             grid,
@@ -293,7 +293,7 @@ impl Sampled {
                 .collect(),
             ..Held::default()
         };
-        let (Some(supported), Some(supporting)) = (&self.supported, &self.sampling.supports) else {
+        let Some(supported) = &self.supported else {
             return held;
         };
         let lifted = |[x, y, z]: [f64; 3]| [x, y, z + supported.lift_mm];
@@ -301,6 +301,7 @@ impl Sampled {
             *at_mm = lifted(*at_mm);
         }
         let contacts = supported.points.iter().map(|point| lifted(point.at_mm));
+        let supporting = self.sampling.supports.clone().unwrap_or_default();
         let profile = supporting.profile();
         Held {
             contacts_mm: contacts.collect(),

@@ -91,6 +91,9 @@ pub struct ReadOptions {
     pub surfaces: bool,
     /// Closes every hole where the generalised winding number is one half, and not only wide ones that are bent.
     pub curved_caps: bool,
+    /// Reads bodies that look like supports as parts of the model. Without it they are kept as supports: printed, and left out of
+    /// profiles and compensation.
+    pub supports_as_model: bool,
 }
 
 impl Contents {

@@ -12,7 +12,7 @@ mod rays;
 mod shapes;
 mod trees;
 
-use glam::DVec3;
+use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
 use super::columns::Columns;
@@ -20,6 +20,7 @@ use super::lengths::{self, BadLength};
 use super::shell::Shell;
 use super::surface::Surface;
 use crate::grid::Grid;
+use crate::argsort::sort_by_number;
 use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
@@ -343,6 +344,28 @@ pub fn support(
             hits: (room.x * room.y / (pitch_mm * pitch_mm)) as u64,
             needed_bytes: (MOST_NODES * Clearance::NODE_BYTES) as u64,
         });
+    /// Supports that a file brings along: their tips, on a model that stands on the plate, and the distance by which they lift it.
+    pub(crate) fn of_file(tips: &[Vec3], lift_mm: f64) -> Self {
+        let mut points: Vec<SupportPoint> = tips
+            .iter()
+            .map(|tip| SupportPoint {
+                at_mm: tip.as_dvec3().to_array(),
+                contact_mm: None,
+            })
+            .collect();
+        sort_by_number(&mut points, |it| -it.at_mm[2]);
+        Self {
+            shell: Shell::default(),
+            points,
+            unreached: Vec::new(),
+            astray: Vec::new(),
+            on_model: 0,
+            joints_mm: Vec::new(),
+            lift_mm,
+            load: None,
+        }
+    }
+
     };
     let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.2 * fraction))?;
     let surface = Surface::new(mesh);

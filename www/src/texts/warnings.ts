@@ -23,6 +23,10 @@ export const warnings = {
   "closed-cavities": "{cavities|one:# cavity of the model stays|other:# cavities of the model stay} closed, with {volume_mm3|volume} of resin, the largest at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; make holes to them, or fill them.",
   "support-astray": "Support {point_number|count} is not on the model, and was left out; place it on the surface.",
   unsupported: "{points|one:# point|other:# points} without a support, since none gets there; turn the model, or choose lighter supports.",
+  "own-supports": {
+    kept: "Supports of the file hold the model at {tips|one:# point|other:# points}; they are printed as they are.",
+    replaced: "Supports of the file hold the model at {tips|one:# point|other:# points}; those that you chose replace them.",
+  },
   "unclosed-rays": "{unclosed|count} of {rays|count} rays pass holes of the mesh, which caps close; look at the masks.",
   "missed-bodies": "{bodies|one:# body|other:# bodies} of the model missing in all masks, the largest at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}: narrower than a pixel, and met by no ray; thicken it, or choose smaller pixels.",
   "tolerance-exceeded": "The error reaches {max_error|error}, more than the tolerance of {tolerance|error}.",
@@ -65,6 +69,7 @@ export const warningNouns = {
 } as const satisfies { gpuFaults: Record<GpuFault, string>; partKinds: Record<PartKind, string>; reading: string };
 
 const cases: Cases<typeof warnings, WarningDetails> = {
+  "own-supports": ({ replaced }) => (replaced ? "replaced" : "kept"),
   "one-thickness": ({ best }) => (best === null ? "none" : "best"),
   "gpu-failed": ({ system }) => (system === null ? "bare" : "system"),
 };
