@@ -68,6 +68,26 @@ pub enum Error {
         /// Seconds that it may take.
         allowed_s: f64,
     },
+    /// Pieces of supported models begin with nothing below them, and would float in the vat.
+    #[error(
+        "{} nothing below, the largest of {volume_mm3:.2} mm³ in layer {layer_number} at {:.2}, {:.2}, {:.2}: add supports there, turn the \
+         model, or allow floating pieces",
+        if *pieces == 1 { "a piece begins with".to_owned() } else { format!("{pieces} pieces begin with") },
+        at_mm[0],
+        at_mm[1],
+        at_mm[2]
+    )]
+    #[serde(rename = "floating-pieces")]
+    FloatingPieces {
+        /// Number of such pieces.
+        pieces: usize,
+        /// Volume of the largest.
+        volume_mm3: f64,
+        /// The layer in which it begins, from 1.
+        layer_number: usize,
+        /// Its place, as in findings.
+        at_mm: [f64; 3],
+    },
     /// The options contradict each other or cannot be read.
     #[error(transparent)]
     #[serde(untagged)]

@@ -165,6 +165,7 @@ mod tests {
             "ranges": [{ "from_mm": 1.0, "to_mm": 2.0, "layer_min_mm": 0.05, "layer_max_mm": 0.1 }],
             "planes_mm": [3.0],
             "snap": "off",
+            "allow_floating": true,
             "flat_area_mm2": 3.0,
             "metric": "deviation",
             "source": "sampled",

@@ -149,6 +149,9 @@ pub struct Options {
     pub pitch_y_mm: Option<f64>,
     /// True if print files have their masks mirrored left to right, for printers whose screen lights the resin from below.
     pub mirror: Option<bool>,
+    /// True if print files of supported models are written although pieces would float in the vat.
+    #[serde(skip_serializing_if = "std::ops::Not::not")]
+    pub allow_floating: bool,
     /// Format of the print file.
     pub format: Option<Format>,
     /// Pixels along the model's longer horizontal side, where neither pixels nor a pitch are known.
@@ -233,6 +236,7 @@ impl Default for Options {
             format: None,
             rays: 2048,
             antialias: 1,
+            allow_floating: false,
             min_feature_mm: None,
             layer_min_mm: None,
             layer_max_mm: None,

@@ -78,6 +78,7 @@ impl Job {
                 output: layout.resolved.output.clone(),
                 report,
                 seen,
+                is_held: false,
             });
         }
         tell(progress, Stage::Plan, 1.0)?;

@@ -1,6 +1,7 @@
 //! A plate with its plan: its masks and its print file.
 
 use std::io::Write;
+use std::ops::ControlFlow;
 use std::sync::Arc;
 
 use web_time::Instant;
@@ -33,6 +34,8 @@ pub(super) struct Plate {
     pub report: Report,
     /// The masks seen from above, kept for later calls, and cursors at the last layer that was read.
     pub seen: Option<(Arc<PlateMasks>, Vec<MaskCursor>)>,
+    /// True if it is known that no piece of it floats.
+    pub is_held: bool,
 }
 
 impl Plate {
@@ -67,6 +70,24 @@ impl Plate {
         Ok(found)
     }
 
+    /// Refuses a print file in which pieces would float, unless the options allow it.
+    fn check_floating(&mut self, progress: &mut StageProgress<'_>) -> Result<(), Error> {
+        if self.output.allow_floating || self.is_held {
+            return Ok(());
+        }
+        let found = self.floating(&mut |fraction| progress(Stage::Inspect, fraction))?;
+        let Some(largest) = found.first() else {
+            self.is_held = true;
+            return Ok(());
+        };
+        Err(Error::FloatingPieces {
+            pieces: found.len(),
+            volume_mm3: largest.volume_mm3,
+            layer_number: largest.layers[0] + 1,
+            at_mm: largest.at_mm,
+        })
+    }
+
     /// The screen that shows its masks.
     pub fn screen(&self) -> Screen {
         let first = &self.planned.first().of;
@@ -81,6 +102,7 @@ impl Plate {
     /// The masks of its print file in groups; `None` if the file has no masks, if they have to be read slab by slab, or if sending them
     /// takes as long as encoding them.
     pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, Error> {
+        self.check_floating(&mut |_, _| ControlFlow::Continue(()))?;
         // Masks of a mirroring printer are not kept: they would be made a second time when the file is written.
         if !self.output.format.is_zip() || !self.are_all_held() {
             return Ok(None);
@@ -103,6 +125,7 @@ impl Plate {
         writer: W,
         progress: &mut StageProgress<'_>,
     ) -> Result<(W, &Report), Error> {
+        self.check_floating(progress)?;
         let clock = Instant::now();
         let encoded_share = encoded.map_or(0.0, |_| ENCODED_SHARE);
         let mut within = |fraction| {

@@ -49,6 +49,7 @@ impl Options {
                     .unwrap_or(false),
                 printer,
                 filament,
+                allow_floating: self.allow_floating,
             },
         })
     }

@@ -40,9 +40,6 @@ pub struct Slicing {
     /// Write the model as it prints, with its voids and supports: an .stl or .3mf for other programs
     #[arg(long, value_name = "FILE", value_parser = mesh_file, help_heading = "Model")]
     pub export: Option<PathBuf>,
-    /// Write print files of supported models in which pieces float in the vat, too
-    #[arg(long, help_heading = "Model")]
-    pub allow_floating: bool,
     /// Write a plug for each drain hole, to print and glue in once the resin is out: an .stl
     #[arg(long, value_name = "FILE", value_parser = stl_file, help_heading = "Model")]
     pub plugs: Option<PathBuf>,
@@ -234,6 +231,15 @@ pub struct Choices {
     lift: Option<f64>,
     #[command(flatten)]
     pub target: Target,
+    /// Write print files of supported models in which pieces float in the vat, too
+    #[arg(long, help_heading = "Model")]
+    allow_floating: bool,
+    /// Put all supports on a raft
+    #[arg(long, help_heading = "Model")]
+    raft: bool,
+    /// Size of supports by its name in `supports.profile`, as `spacing_mm=2.5`; repeatable
+    #[arg(long = "support-size", value_name = "NAME=VALUE", value_parser = size, help_heading = "Model")]
+    support_sizes: Vec<(String, f64)>,
     /// Weight facets by saliency: how much they stand out
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = "Weights")]
     saliency: Option<bool>,
@@ -423,6 +429,7 @@ impl Choices {
         put(&mut options.step_mm, self.step);
         if !self.ranges.is_empty() {
             options.ranges.clone_from(&self.ranges);
+        options.allow_floating |= self.allow_floating;
         }
         if !self.planes.is_empty() {
             options.planes_mm.clone_from(&self.planes);

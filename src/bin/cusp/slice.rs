@@ -4,7 +4,6 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::filament::FilamentReport;
-use cusp_slicer::inspect::Finding;
 use cusp_slicer::job::{
     Backend, BestUniform, Job, JobReport, PlannerReport, Report, StageProgress,
 };
@@ -57,8 +56,7 @@ pub fn slice(slicing: &Slicing, output: &Path) -> Result<(), Failure> {
     };
     for (plate, output) in outputs.iter().enumerate() {
         let mut progress = |stage, fraction| bar.report(stage, fraction);
-        let is_allowed = slicing.allow_floating;
-        report.plates[plate] = write_plate(&mut job.job, plate, output, is_allowed, &mut progress)?;
+        report.plates[plate] = write_plate(&mut job.job, plate, output, &mut progress)?;
     }
     drop(bar);
     write_meshes(slicing, &job)?;
@@ -119,36 +117,13 @@ fn write_plate(
     job: &mut Job,
     plate: usize,
     output: &Output<'_>,
-    allow_floating: bool,
     progress: &mut StageProgress<'_>,
 ) -> Result<Report, Failure> {
-    if !allow_floating {
-        let found = job.floating(plate, progress);
-        let found = found.map_err(|error| output.failure(&error))?;
-        if let Some(largest) = found.first() {
-            return Err(floats(largest, found.len()).into());
-        }
-    }
     output.write(|writer| {
         let written = job.write_archive(plate, writer, progress);
         let (writer, report) = written.map_err(|error| output.failure(&error))?;
         Ok((writer, report.clone()))
     })
-}
-
-/// The message about pieces that would float in the vat.
-fn floats(largest: &Finding, pieces: usize) -> String {
-    let [x, y, z] = largest.at_mm;
-    let pieces = match pieces {
-        1 => "a piece begins".to_owned(),
-        more => format!("{more} pieces begin"),
-    };
-    format!(
-        "{pieces} with nothing below, the largest of {:.1} mm³ in layer {} at {x:.2}, {y:.2}, {z:.2}: add supports there, turn the \
-         model, or write it all the same by --allow-floating",
-        largest.volume_mm3,
-        largest.layers[0] + 1,
-    )
 }
 
 /// The print file of each plate. Those of several have their number in the name.
@@ -196,8 +171,7 @@ fn slice_all(slicing: &Slicing, folder: &Path) -> Result<(), Failure> {
         let (model, workers) = (&batch.models[place], batch.at_a_time());
         let mut job = LoadedJob::alone(model, &settings, &slicing.budget, workers)?;
         let mut report = job.plan(progress)?;
-        let (output, is_allowed) = (&outputs[place], slicing.allow_floating);
-        report.plates[0] = write_plate(&mut job.job, 0, output, is_allowed, progress)?;
+        report.plates[0] = write_plate(&mut job.job, 0, &outputs[place], progress)?;
         Ok(report)
     })
 }

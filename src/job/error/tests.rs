@@ -312,6 +312,7 @@ fn errors() -> Vec<Error> {
         MemoryBound { needed_bytes: 2_000_000_000, allowed_bytes: 1_000_000_000 },
         TimeBound { work: Work::Layers, needed_s: 3600.0, allowed_s: 300.0 },
         NoPlan {},
+        FloatingPieces { pieces: 2, volume_mm3: 3.25, layer_number: 41, at_mm: [1.5, -2.0, 2.05] },
     );
     errors.extend(options_errors().into_iter().map(Error::from));
     errors.extend(read_errors().into_iter().map(Error::from));

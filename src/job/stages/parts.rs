@@ -113,6 +113,8 @@ pub(crate) struct Output {
     pub printer: Option<Arc<Printer>>,
     /// For a slicer of filament printers, in place of masks.
     pub filament: Option<Filament>,
+    /// True if pieces that float in the vat are no reason to refuse it.
+    pub allow_floating: bool,
 }
 
 /// Inputs of a file for a slicer of filament printers, besides plan and model.

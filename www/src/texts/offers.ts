@@ -8,6 +8,7 @@ export const offers = {
   uniform: "Uniform layers of {thickness}",
   bestUniform: "Uniform layers of {thickness} ({layers|one:# layer|other:# layers})",
   images: "Save as images",
+  floating: "Save it all the same",
   noPrinter: "Without a printer",
   unit: "It is in {unit|settings.units}",
   again: "Try again",

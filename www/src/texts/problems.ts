@@ -17,6 +17,7 @@ export const problemTexts = room("", {
     plate: "The plate cannot be printed like this",
     tooHigh: "The model is too high for this printer",
     tooFine: "This resolution is too much for this computer",
+    floats: "Pieces of the print would float in the vat",
     noHits: "{name} is too thin for these pixels",
     allBlack: "Every layer would be empty",
     layerTooThick: "The layers are too thick for this model",

@@ -157,6 +157,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   crash: "crash",
   "part-failed": "other",
   "no-browser": "other",
+  "floating-pieces": "floats",
   "no-layer": "other",
   "no-plan": "other",
   "no-model": "other",
@@ -178,6 +179,7 @@ const FIELDS: Partial<Record<Kind, Problem["field"]>> = {
   tooHigh: "printer",
   tooFine: "rays",
   noHits: "rays",
+  floats: "supports",
   rangeEmpty: "layerMax",
   doNotFit: "layerMin",
   infeasible: "tolerance",
@@ -219,6 +221,8 @@ function offersFor(kind: Kind, error: SlicerError, failure: Failure, language: L
     case "tooLarge":
     case "tooHigh":
       return [...smaller(scaleThatFits(error), failure, language), withoutPrinter(language)];
+    case "floats":
+      return [{ label: language.texts.offers.floating, change: { floating: "allow" } }];
     case "noSuchPrinter":
       return [...similarPrinters(error), withoutPrinter(language)];
     case "badPrinter":

@@ -42,6 +42,10 @@ interface Choices {
   /** If on, automatic supports are added to those by hand. */
   fill: "off" | "on";
   /** If on, automatic supports and drain holes avoid areas painted as important. */
+  /** If allowed, print files of supported models are written although pieces float in the vat. */
+  floating: "refuse" | "allow";
+  /** If on, all supports stand on one raft. */
+  raft: "off" | "on";
   protect: "off" | "on";
   /** Infill of a hollow model's void. */
   infill: "none" | "lattice";
@@ -122,6 +126,8 @@ export const DEFAULT_SETTINGS: Settings = {
   resin: "",
   rotation: "",
   points: "",
+  floating: "refuse",
+  raft: "off",
   drains: "",
   exposure: "",
   bottomExposure: "",
@@ -229,6 +235,8 @@ function current(address: URLSearchParams): URLSearchParams {
 
 /**
  * Settings from a URL query such as `?height=60&metric=area&tolerance=5`, based on the defaults; other parameters are ignored. Numbers are
+  floating: ["refuse", "allow"],
+  raft: ["off", "on"],
  * checked later, like typed ones, and may have a decimal comma and a unit. An unknown choice is ignored, as no field could show it.
  */
 export function fromAddress(query: string): Settings {
@@ -387,6 +395,12 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const rotation = quaternion(settings.rotation);
   if (rotation !== null) options.rotation = rotation;
 
+  if (strength !== "none" && settings.floating === "allow") options.allow_floating = true;
+  // Other models of the plate may have supports where this one has none.
+  if (strength !== "none" && planner !== "uniform" && settings.supportLayer.trim() !== "") {
+    options.support_layer_mm = layer("supportLayer");
+    if (min > options.support_layer_mm) faults.supportLayer = { kind: "upsideDown" };
+  }
   return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
 }
 
