@@ -1,5 +1,7 @@
 //! Facts that forms and documents need before anything is sliced: defaults, bounds, formats, and the options that rays depend on.
 
+use std::collections::BTreeMap;
+
 use serde::Serialize;
 
 use super::Options;
@@ -7,7 +9,7 @@ use crate::arrange::Arranging;
 use crate::filament::{FilamentSlicer, LayerRule, NOZZLES_MM, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::inspect::Limits;
-use crate::prepare::{AutoDrain, LEAST_WALL_MM, SupportStrength};
+use crate::prepare::{AutoDrain, LEAST_WALL_MM, MOST_SUPPORT_MM, SupportProfile, SupportStrength};
 use crate::profile::Metric;
 
 /// The options that rays depend on. A change of any other repeats the plan or the print file alone.
@@ -55,8 +57,16 @@ pub struct Facts {
     pub nozzles_mm: [f64; 2],
     /// Minimum thickness of the walls of a hollow model.
     pub wall_least_mm: f64,
-    /// Diameter of contacts by the strength of supports.
-    pub contacts_mm: Contacts,
+    /// Sizes of supports by their strength.
+    pub supports: StrengthProfiles,
+    /// Least values of the sizes of supports, by their names.
+    #[cfg_attr(
+        target_arch = "wasm32",
+        tsify(type = "Record<Exclude<keyof SupportProfile, 'raft'>, number>")
+    )]
+    pub support_least: BTreeMap<&'static str, f64>,
+    /// The largest size of any part of supports.
+    pub support_most_mm: f64,
     /// Default diameter of drain holes.
     pub drain_mm: f64,
     /// The options that rays depend on.
@@ -74,14 +84,17 @@ pub struct MetricFacts {
     pub tolerance: f64,
 }
 
-/// A length for each strength of supports.
+/// Sizes of supports for each strength.
 #[derive(Debug, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[expect(missing_docs, reason = "the fields are the strengths")]
-pub struct Contacts {
-    pub light: f64,
-    pub medium: f64,
-    pub heavy: f64,
+pub struct StrengthProfiles {
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<SupportProfile>"))]
+    pub light: SupportProfile,
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<SupportProfile>"))]
+    pub medium: SupportProfile,
+    #[cfg_attr(target_arch = "wasm32", tsify(type = "Required<SupportProfile>"))]
+    pub heavy: SupportProfile,
 }
 
 /// A print format.
@@ -105,7 +118,11 @@ impl Default for Facts {
             name,
             tolerance: name.default_tolerance(),
         };
-        let contact_mm = |strength: SupportStrength| strength.profile().contact_mm;
+        let least = SupportProfile::LEAST.iter();
+        let least = least.map(|&(option, _, least)| {
+            let name = option.rsplit('.').next().unwrap_or(option);
+            (name, least)
+        });
         Self {
             defaults: Options::default().settled(),
             arranging: Arranging::default(),
@@ -115,11 +132,13 @@ impl Default for Facts {
             nozzle_mm: USUAL_NOZZLE_MM,
             nozzles_mm: NOZZLES_MM,
             wall_least_mm: LEAST_WALL_MM,
-            contacts_mm: Contacts {
-                light: contact_mm(SupportStrength::Light),
-                medium: contact_mm(SupportStrength::Medium),
-                heavy: contact_mm(SupportStrength::Heavy),
+            supports: StrengthProfiles {
+                light: SupportStrength::Light.profile(),
+                medium: SupportStrength::Medium.profile(),
+                heavy: SupportStrength::Heavy.profile(),
             },
+            support_least: least.collect(),
+            support_most_mm: MOST_SUPPORT_MM,
             drain_mm: AutoDrain::default().diameter_mm,
             ray_options: RAY_OPTIONS,
         }
@@ -146,6 +165,7 @@ mod tests {
             "pitch_mm": 0.07,
             "pitch_y_mm": 0.06,
             "mirror": true,
+            "allow_floating": true,
             "format": "goo",
             "rays": 512,
             "antialias": 4,
@@ -153,6 +173,7 @@ mod tests {
             "layer_min_mm": 0.04,
             "layer_max_mm": 0.12,
             "first_layer_mm": 0.06,
+            "support_layer_mm": 0.14,
             "nozzle_mm": 0.6,
             "thicknesses_mm": [0.05, 0.1],
             "max_thicknesses": 3,
@@ -165,7 +186,6 @@ mod tests {
             "ranges": [{ "from_mm": 1.0, "to_mm": 2.0, "layer_min_mm": 0.05, "layer_max_mm": 0.1 }],
             "planes_mm": [3.0],
             "snap": "off",
-            "allow_floating": true,
             "flat_area_mm2": 3.0,
             "metric": "deviation",
             "source": "sampled",

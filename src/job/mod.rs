@@ -26,7 +26,7 @@ mod verify;
 pub use calibration::{Calibration, Section};
 pub use convert::{Conversion, ConvertError, Loss, Target};
 pub use error::{Error, Work};
-pub use facts::{Contacts, Facts, FormatFacts, MetricFacts};
+pub use facts::{Facts, FormatFacts, MetricFacts, StrengthProfiles};
 pub use jobs::Job;
 pub use loaded::LoadedModel;
 pub use options::*;

@@ -170,6 +170,9 @@ pub struct Options {
     /// Thickness of the first layer, whatever its error and the range of thicknesses. The tolerance holds above it. If absent,
     /// it is chosen like the others, or, for filament printers, half the width of the nozzle.
     pub first_layer_mm: Option<f64>,
+    /// Maximum thickness of layers below all models, where only supports and rafts are. If absent, as elsewhere.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub support_layer_mm: Option<f64>,
     /// Width of the nozzle of a filament printer, for formats that these have; 0.4 mm if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub nozzle_mm: Option<f64>,
@@ -233,14 +236,15 @@ impl Default for Options {
             pitch_mm: None,
             pitch_y_mm: None,
             mirror: None,
+            allow_floating: false,
             format: None,
             rays: 2048,
             antialias: 1,
-            allow_floating: false,
             min_feature_mm: None,
             layer_min_mm: None,
             layer_max_mm: None,
             first_layer_mm: None,
+            support_layer_mm: None,
             nozzle_mm: None,
             thicknesses_mm: Vec::new(),
             max_thicknesses: None,

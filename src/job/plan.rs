@@ -319,14 +319,12 @@ fn check_own_prepared(
     })
 }
 
-/// The layering of a plate: that of the options, with the height ranges of the models on it.
+/// The layering of a plate: that of the options, with the height ranges of the models on it and of what is below them all.
 fn layering_of(options: &JobOptions, layout: &Layout, models: &[PlannedModel]) -> Layering {
     let mut layering = layout.resolved.layering.clone();
-    if layout.is_alone {
-        return layering;
-    }
-    let mut ranges = layering.limits.ranges.clone();
-    for model in models {
+    let limits = &mut layering.limits;
+    let mut ranges = limits.ranges.clone();
+    for model in models.iter().filter(|_| !layout.is_alone) {
         let height_mm = model.sampled().height_mm;
         let own = options.of_model(model.model).ranges;
         // A model has no say above its top.
@@ -336,8 +334,21 @@ fn layering_of(options: &JobOptions, layout: &Layout, models: &[PlannedModel]) -
             ..range
         }));
     }
-    if ranges.len() > layering.limits.ranges.len() {
-        layering.limits.ranges = HeightRange::joined(&ranges);
+    if let Some(layer_max_mm) = options.options.support_layer_mm {
+        let lowest_mm = models.iter().map(|it| it.sampled().prepared.lift_mm());
+        let to_mm = lowest_mm.fold(f64::INFINITY, f64::min);
+        // Lower than a layer, it is left to the model's layers.
+        if to_mm >= layer_max_mm {
+            ranges.push(HeightRange {
+                from_mm: 0.0,
+                to_mm,
+                layer_min_mm: limits.layer_min_mm,
+                layer_max_mm,
+            });
+        }
+    }
+    if ranges.len() > limits.ranges.len() {
+        limits.ranges = HeightRange::joined(&ranges);
     }
     layering
 }

@@ -182,9 +182,20 @@ impl Options {
             Planner::Uniform { layer_mm } => {
                 uniform::thickness_in_bins(bins, layer_mm)?;
             }
-            _ => layering
-                .limits(self.tolerance.unwrap_or(usual))
-                .check(bins)?,
+            _ => {
+                let limits = layering.limits(self.tolerance.unwrap_or(usual));
+                limits.check(bins)?;
+                if let Some(most_mm) = self.support_layer_mm {
+                    limits.thickness(bins, layer_min_mm, most_mm)?;
+                }
+            }
+        }
+        if self.support_layer_mm.is_some() && !self.planner.is_adaptive() {
+            return Err(OptionsError::Contradictory {
+                option: "support_layer_mm",
+                other: "planner",
+            }
+            .into());
         }
         Ok(layering)
     }
@@ -267,6 +278,7 @@ impl Options {
         }
         let of_resin = [
             self.hollow.as_ref().map(|_| "hollow"),
+            self.support_layer_mm.map(|_| "support_layer_mm"),
             self.supports.as_ref().map(|_| "supports"),
             self.max_time_s.map(|_| "max_time_s"),
             (self.minimize == Minimize::Time).then_some("minimize"),
@@ -343,7 +355,12 @@ impl Options {
         let ranges = ranges.map(|range| [range.layer_min_mm, range.layer_max_mm]);
         let all = std::iter::once(self.range_mm());
         let given = self.thicknesses_mm.iter().map(|&layer_mm| [layer_mm; 2]);
-        all.chain(given).chain(ranges).chain(first_mm).collect()
+        let below_mm = self.support_layer_mm.map(|layer_mm| [layer_mm; 2]);
+        all.chain(given)
+            .chain(ranges)
+            .chain(first_mm)
+            .chain(below_mm)
+            .collect()
     }
 
     /// The default height of a bin. With a step, it is the largest height up to [`BIN_MM`] that divides the step; otherwise

@@ -310,8 +310,36 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
     assert_fails(
         &cusp(&["plan", &ball, "--lift", "4"]),
         1,
-        "--lift is for supported models: add --supports",
+        "are for supported models: add --supports",
     );
+    // Sizes by name, a raft, and thick layers below the model.
+    let sized = plan(&[
+        "--supports",
+        "light",
+        "--raft",
+        "--support-size",
+        "spacing_mm=2",
+        "--support-size",
+        "lift_mm=6",
+        "--support-layer",
+        "0.2",
+    ]);
+    let profile = &sized["options"]["supports"]["profile"];
+    assert_eq!(profile["spacing_mm"], 2.0);
+    assert_eq!(profile["raft"], true);
+    assert_eq!(profile["contact_mm"], 0.3);
+    assert_near(height_mm(&sized) - height_mm(&bare), 6.0, 1e-9);
+    assert_eq!(sized["thickness_mm"][0], 0.2);
+    for (size, message) in [
+        ("spacing=2", "did you mean `spacing_mm`"),
+        ("spacing_mm", "give a name and a number"),
+        ("spacing_mm=0.1", "spacing_mm"),
+    ] {
+        let output = cusp(&["plan", &ball, "--supports", "auto", "--support-size", size]);
+        assert!(!output.status.success());
+        let text = String::from_utf8_lossy(&output.stderr);
+        assert!(text.contains(message), "{text}");
+    }
     let obj = folder.path().join("held.obj");
     assert_fails(
         &cusp(&["plan", &ball, "--export", obj.to_str().unwrap()]),

@@ -2,7 +2,7 @@
 
 use crate::common::Slicer;
 use cusp_slicer::inspect::{Code, Limits, Printability};
-use cusp_slicer::job::{Error, Options, OptionsError, Report};
+use cusp_slicer::job::{Error, Options, OptionsError, Planner, Report};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::prepare::{
     Hollowing, SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
@@ -490,18 +490,130 @@ fn pixels_and_quality_do_not_prepare_again() {
     assert!(report.models[0].supported.clone().unwrap().points != Vec::new());
 }
 
+/// The lit area of the layer at a height.
+fn area_mm2((report, found): &(Report, Printability), z_mm: f64) -> f64 {
+    let layer = report.z_mm.partition_point(|&it| it < z_mm) - 1;
+    found.peel.area_mm2[layer]
+}
+
 #[test]
 fn feet_stand_on_a_raft_if_asked() {
     let mut ball = load(&solids::sphere(10.0, 5));
-    let raft = SupportProfile {
+    let closed = SupportProfile {
         raft: true,
+        raft_hole_mm: 0.0,
         ..SupportProfile::default()
     };
-    let with = checked(&mut ball, &supported(of(raft)));
-    let on_plate = with.1.peel.area_mm2[0];
-    let without = checked(&mut ball, &supported(Supporting::default()));
-    assert!(on_plate > 1.5 * without.1.peel.area_mm2[0], "{on_plate}");
+    let mut sliced = |profile: SupportProfile| checked(&mut ball, &supported(of(profile)));
+    let without = sliced(SupportProfile::default());
+    let with = sliced(closed);
     assert_eq!(with.1.bodies, 1);
+    let [low, high] = [0.1, 0.9].map(|z_mm| area_mm2(&with, z_mm));
+    assert!(low > 1.2 * area_mm2(&without, 0.1), "{low}");
+    // Its side slopes by 45°, up to its thickness. No convex outline is shorter than a circle's.
+    let perimeter_mm = (4.0 * std::f64::consts::PI * low).sqrt();
+    assert!(high - low > 0.6 * perimeter_mm, "{low} {high}");
+    assert!(area_mm2(&with, 1.1) < 0.5 * low);
+    let thick = sliced(SupportProfile {
+        raft_thickness_mm: 2.0,
+        raft_slope: 50.0,
+        ..closed
+    });
+    assert_near(area_mm2(&thick, 1.9), area_mm2(&thick, 0.1), 0.02 * low);
+    assert!(area_mm2(&thick, 2.1) < 0.5 * low);
+    // A margin of 3 mm more adds at least that along a circle of the same area.
+    let wide = sliced(SupportProfile {
+        raft_margin_mm: 5.0,
+        ..closed
+    });
+    assert!(area_mm2(&wide, 0.1) - low > 3.0 * perimeter_mm);
+    // Resin leaves it through holes between feet that are apart, and it hangs together.
+    let mut apart = solids::sphere(3.0, 4);
+    apart.extend(solids::moved(&apart, Vec3::new(40.0, 20.0, 0.0)));
+    let mut apart = load(&apart);
+    let mut sliced = |raft_hole_mm: f64| {
+        let profile = SupportProfile {
+            raft_hole_mm,
+            raft_slope: 50.0,
+            ..closed
+        };
+        checked(&mut apart, &supported(of(profile)))
+    };
+    let (with, open) = (sliced(0.0), sliced(4.0));
+    let [closed_mm2, open_mm2] = [&with, &open].map(|it| area_mm2(it, 0.1));
+    assert!(open_mm2 < 0.9 * closed_mm2, "{open_mm2} of {closed_mm2}");
+    assert_eq!(open.1.bodies, 1);
+    let cups = |(_, found): &(Report, Printability)| {
+        let counts = found.counts.iter();
+        let of = |code| counts.clone().filter(move |it| it.code == code).count();
+        [of(Code::Cup), of(Code::Trap), of(Code::LooseBody)]
+    };
+    assert_eq!(cups(&open), [0; 3]);
+    assert_eq!(cups(&with), [0; 3]);
+    let low_lift = of(SupportProfile {
+        lift_mm: 1.5,
+        ..closed
+    });
+    let error = supported(low_lift).check().unwrap_err();
+    assert!(error.to_string().contains("lift_mm"), "{error}");
+}
+
+#[test]
+fn layers_are_thicker_below_the_model_if_asked() {
+    let mut ball = load(&solids::sphere(8.0, 5));
+    let fine = Options {
+        layer_max_mm: Some(0.1),
+        ..supported(Supporting::default())
+    };
+    let thick = Options {
+        support_layer_mm: Some(0.2),
+        ..fine.clone()
+    };
+    let report = plan(&mut ball, &thick);
+    assert!(report.z_mm.contains(&5.0));
+    for (layer, &thickness_mm) in report.thickness_mm.iter().enumerate() {
+        let most_mm = if report.z_mm[layer] < 5.0 { 0.2 } else { 0.1 };
+        assert!(thickness_mm <= most_mm + 1e-9, "{layer}: {thickness_mm}");
+    }
+    let below = report.z_mm.partition_point(|&it| it < 5.0);
+    assert_eq!(below, 25);
+    assert!(report.max_error <= report.tolerance);
+    // Above the plate of the model all is as it would be with a plane there.
+    let plane = Options {
+        planes_mm: vec![5.0],
+        ..fine
+    };
+    let usual = plan(&mut ball, &plane);
+    let above = |report: &Report| {
+        let from = report.z_mm.partition_point(|&it| it < 5.0);
+        report.z_mm[from..].to_vec()
+    };
+    assert_eq!(above(&report), above(&usual));
+    let uniform = Options {
+        planner: Planner::Uniform { layer_mm: 0.05 },
+        ..thick
+    };
+    let error = uniform.check().unwrap_err();
+    let Error::Options(OptionsError::Contradictory { option, .. }) = error else {
+        panic!("{error}");
+    };
+    assert_eq!(option, "support_layer_mm");
+}
+
+#[test]
+fn sizes_that_are_absent_are_those_of_the_strength() {
+    let read = |text: &str| serde_json::from_str::<Supporting>(text);
+    let heavy = SupportStrength::Heavy.profile();
+    let asked = read(r#"{ "strength": "heavy", "profile": { "raft": true, "lift_mm": 7 } }"#);
+    let expected = SupportProfile {
+        raft: true,
+        lift_mm: 7.0,
+        ..heavy
+    };
+    assert_eq!(asked.unwrap().profile(), expected);
+    assert_eq!(read(r#"{ "strength": "heavy" }"#).unwrap().profile, None);
+    let error = read(r#"{ "profile": { "spacing": 2 } }"#).unwrap_err();
+    assert!(error.to_string().contains("`spacing`"), "{error}");
 }
 
 #[test]

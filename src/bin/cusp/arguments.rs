@@ -7,11 +7,13 @@ use cusp_slicer::arrange::Arranging;
 use cusp_slicer::filament::USUAL_NOZZLE_MM;
 use cusp_slicer::format::Format;
 use cusp_slicer::job::{BIN_MM, Backend, GpuMethod, LAYERS_MM, Minimize, Options, Planner, Snap};
+use cusp_slicer::misnamed::with_nearest;
 use cusp_slicer::model::ModelUnit;
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
-use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportProfile, SupportStrength, Supporting};
+use cusp_slicer::prepare::{AutoDrain, Hollowing, SupportStrength, Supporting};
 use cusp_slicer::profile::{Metric, Source};
+use serde_json::{Map, Value, json};
 
 use crate::budget::Budget;
 use crate::config::{self, SettingsFile};
@@ -20,7 +22,7 @@ use crate::files::{Reading, WeightsFile, printer_choice, read_json, read_resin};
 use crate::usage::{Given, wrong_usage};
 use crate::values::{
     DrainArg, PrinterName, antialias, drain, height_range, length, mesh_file, not_negative, pitch,
-    pixels, positive, rotation, stl_file, uniform_layer,
+    pixels, positive, rotation, size, stl_file, uniform_layer,
 };
 
 /// Models, and how to slice them.
@@ -161,10 +163,10 @@ pub struct ReadChoices {
     surfaces: bool,
     /// Close every hole by a curved cap, where the generalised winding number is one half, and not only wide bent ones
     #[arg(long)]
+    curved_caps: bool,
     /// Read bodies that look like supports as parts of the model, and not as its supports
     #[arg(long)]
     supports_as_model: bool,
-    curved_caps: bool,
 }
 
 impl ReadChoices {
@@ -172,8 +174,8 @@ impl ReadChoices {
         ReadOptions {
             plate_number: self.plate,
             surfaces: self.surfaces,
-            supports_as_model: self.supports_as_model,
             curved_caps: self.curved_caps,
+            supports_as_model: self.supports_as_model,
         }
     }
 }
@@ -229,8 +231,6 @@ pub struct Choices {
     /// Lift the model this far above the plate, on its supports [default: 5]
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
     lift: Option<f64>,
-    #[command(flatten)]
-    pub target: Target,
     /// Write print files of supported models in which pieces float in the vat, too
     #[arg(long, help_heading = "Model")]
     allow_floating: bool,
@@ -240,6 +240,8 @@ pub struct Choices {
     /// Size of supports by its name in `supports.profile`, as `spacing_mm=2.5`; repeatable
     #[arg(long = "support-size", value_name = "NAME=VALUE", value_parser = size, help_heading = "Model")]
     support_sizes: Vec<(String, f64)>,
+    #[command(flatten)]
+    pub target: Target,
     /// Weight facets by saliency: how much they stand out
     #[arg(long, value_name = "BOOL", num_args = 0..=1, require_equals = true, default_missing_value = "true", help_heading = "Weights")]
     saliency: Option<bool>,
@@ -262,6 +264,9 @@ pub struct Choices {
     /// width of the nozzle]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
     first_layer: Option<f64>,
+    /// Maximum thickness of layers below the model, where only supports and a raft are [default: as elsewhere]
+    #[arg(long, value_name = "MM", value_parser = length, help_heading = "Layers")]
+    support_layer: Option<f64>,
     /// The only layer thicknesses, in place of a range: each needs an exposure of its own
     #[arg(long, value_name = "MM,MM,...", value_delimiter = ',', value_parser = length, conflicts_with_all = ["layer_min", "layer_max", "max_thicknesses", "max_change"], help_heading = "Layers")]
     thicknesses: Vec<f64>,
@@ -424,12 +429,13 @@ impl Choices {
         put(&mut options.rotation, self.rotation);
         put(&mut options.height_mm, self.height);
         put(&mut options.unit, self.unit);
+        options.allow_floating |= self.allow_floating;
         put(&mut options.first_layer_mm, self.first_layer);
+        put(&mut options.support_layer_mm, self.support_layer);
         put(&mut options.bin_mm, self.bin);
         put(&mut options.step_mm, self.step);
         if !self.ranges.is_empty() {
             options.ranges.clone_from(&self.ranges);
-        options.allow_floating |= self.allow_floating;
         }
         if !self.planes.is_empty() {
             options.planes_mm.clone_from(&self.planes);
@@ -520,17 +526,30 @@ impl Choices {
                 };
             }
         }
-        match (&mut options.supports, self.lift) {
-            (Some(supports), Some(lift_mm)) => {
-                let profile = supports.profile();
-                supports.profile = Some(SupportProfile { lift_mm, ..profile });
-                Ok(())
-            }
-            (None, Some(_)) => Err(Failure::from(
-                "--lift is for supported models: add --supports".to_owned(),
-            )),
-            (_, None) => Ok(()),
+        let lift = self.lift.map(|mm| ("lift_mm".to_owned(), json!(mm)));
+        let raft = self.raft.then(|| ("raft".to_owned(), json!(true)));
+        let sizes = self.support_sizes.iter();
+        let sizes = sizes.map(|(name, size)| (name.clone(), json!(size)));
+        let sizes: Map<String, Value> = lift.into_iter().chain(raft).chain(sizes).collect();
+        if sizes.is_empty() {
+            return Ok(());
         }
+        let Some(supports) = &mut options.supports else {
+            let text = "--lift, --raft and --support-size are for supported models: add --supports";
+            return Err(Failure::from(text.to_owned()));
+        };
+        let mut all = json!(supports.profile());
+        if let Some(all) = all.as_object_mut() {
+            all.extend(sizes);
+        }
+        let profile = serde_json::from_value(all);
+        supports.profile = Some(profile.map_err(|error| {
+            Failure::from(format!(
+                "--support-size: {}",
+                with_nearest(&error.to_string())
+            ))
+        })?);
+        Ok(())
     }
 
     /// A plan has one goal, so one on the command line replaces whichever the file has.

@@ -66,6 +66,16 @@ pub enum DrainArg {
     At(Drain),
 }
 
+/// A size by its name, as `spacing_mm=2.5`.
+pub fn size(text: &str) -> Result<(String, f64), String> {
+    let parts = text.split_once('=');
+    let parts = parts.and_then(|(name, size)| Some((name.trim(), size.trim().parse().ok()?)));
+    parts
+        .filter(|&(_, size): &(&str, f64)| size.is_finite())
+        .map(|(name, size)| (name.to_owned(), size))
+        .ok_or_else(|| "give a name and a number, as spacing_mm=2.5".to_owned())
+}
+
 /// Parses `auto`, or `X,Y,Z,DX,DY,DZ,DIAMETER`.
 pub fn drain(text: &str) -> Result<DrainArg, String> {
     if text == "auto" {

@@ -14,13 +14,14 @@ mod trees;
 
 use glam::{DVec3, Vec3};
 use serde::{Deserialize, Serialize};
+use serde_json::{Map, Value};
 
 use super::columns::Columns;
 use super::lengths::{self, BadLength};
 use super::shell::Shell;
 use super::surface::Surface;
-use crate::grid::Grid;
 use crate::argsort::sort_by_number;
+use crate::grid::Grid;
 use crate::ldi::{LdiError, cpu};
 use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
@@ -32,11 +33,12 @@ use trees::Trees;
 #[derive(Debug, Clone, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
-#[serde(default, deny_unknown_fields)]
+#[serde(default, try_from = "Asked")]
+#[cfg_attr(feature = "cli", schemars(!try_from))]
 pub struct Supporting {
     /// Strength and density of supports.
     pub strength: SupportStrength,
-    /// All sizes, in place of those of a strength.
+    /// Sizes in place of those of the strength, which apply where one is absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub profile: Option<SupportProfile>,
     /// Supports at these points. If absent, they are placed automatically.
@@ -45,8 +47,40 @@ pub struct Supporting {
     /// True if more are placed automatically where these points do not hold the model.
     pub fill: bool,
     /// True if automatic points keep off facets that weigh more than a half. Those that the model would need there are unreached.
-    #[serde(alias = "spare")]
     pub protect: bool,
+}
+
+/// Supports as options give them: with some sizes, or none.
+#[derive(Default, Deserialize)]
+#[serde(default, deny_unknown_fields)]
+struct Asked {
+    strength: SupportStrength,
+    profile: Option<Map<String, Value>>,
+    points: Option<Vec<SupportPoint>>,
+    fill: bool,
+    #[serde(alias = "spare")]
+    protect: bool,
+}
+
+impl TryFrom<Asked> for Supporting {
+    type Error = serde_json::Error;
+
+    fn try_from(asked: Asked) -> Result<Self, serde_json::Error> {
+        let profile = asked.profile.map(|sizes| {
+            let mut all = serde_json::to_value(asked.strength.profile())?;
+            if let Value::Object(all) = &mut all {
+                all.extend(sizes);
+            }
+            serde_json::from_value(all)
+        });
+        Ok(Self {
+            strength: asked.strength,
+            profile: profile.transpose()?,
+            points: asked.points,
+            fill: asked.fill,
+            protect: asked.protect,
+        })
+    }
 }
 
 /// Strength and density of supports.
@@ -106,10 +140,18 @@ pub struct SupportProfile {
     pub brace_mm: f64,
     /// Diameter of a foot on the plate.
     pub foot_mm: f64,
-    /// Thickness of a foot on the plate, and of the raft.
+    /// Thickness of a foot on the plate.
     pub foot_thickness_mm: f64,
     /// True if all feet stand on one raft.
     pub raft: bool,
+    /// Thickness of the raft.
+    pub raft_thickness_mm: f64,
+    /// Distance by which the raft reaches beyond the feet.
+    pub raft_margin_mm: f64,
+    /// Slope of the raft's side, as its rise over its run: its top is wider, so that a scraper gets under it.
+    pub raft_slope: f64,
+    /// Distance between the bars of the raft, between which resin leaves it; 0 for a closed raft.
+    pub raft_hole_mm: f64,
     /// Pull of the film per area at a disc of 20 mm, in kPa; 0 if supports need not bear it.
     pub film_kpa: f64,
     /// Greatest stress of a tip where it touches the model, in N/mm².
@@ -141,6 +183,10 @@ impl SupportStrength {
             foot_mm: 4.0,
             foot_thickness_mm: 0.5,
             raft: false,
+            raft_thickness_mm: 1.0,
+            raft_margin_mm: 2.0,
+            raft_slope: 1.0,
+            raft_hole_mm: 4.0,
             film_kpa: 15.0,
             // A tip of 0.4 mm bears 0.25 N, a fifth of what breaks it.
             tip_mpa: 2.0,
@@ -169,7 +215,52 @@ impl SupportStrength {
     }
 }
 
+/// A size by its name in the options, and its least value.
+type LeastSize = (&'static str, fn(&SupportProfile) -> f64, f64);
+
 impl SupportProfile {
+    /// Least values of all sizes.
+    pub(crate) const LEAST: [LeastSize; 18] = [
+        ("supports.profile.lift_mm", |it| it.lift_mm, 0.0),
+        (
+            "supports.profile.self_supporting_slope",
+            |it| it.self_supporting_slope,
+            0.01,
+        ),
+        ("supports.profile.spacing_mm", |it| it.spacing_mm, 0.5),
+        ("supports.profile.contact_mm", |it| it.contact_mm, 0.1),
+        (
+            "supports.profile.penetration_mm",
+            |it| it.penetration_mm,
+            0.0,
+        ),
+        ("supports.profile.tip_mm", |it| it.tip_mm, 0.5),
+        ("supports.profile.pillar_mm", |it| it.pillar_mm, 0.3),
+        ("supports.profile.clearance_mm", |it| it.clearance_mm, 0.1),
+        ("supports.profile.branch_mm", |it| it.branch_mm, 0.0),
+        ("supports.profile.brace_mm", |it| it.brace_mm, 2.0),
+        ("supports.profile.foot_mm", |it| it.foot_mm, 0.3),
+        (
+            "supports.profile.foot_thickness_mm",
+            |it| it.foot_thickness_mm,
+            0.1,
+        ),
+        (
+            "supports.profile.raft_thickness_mm",
+            |it| it.raft_thickness_mm,
+            0.2,
+        ),
+        (
+            "supports.profile.raft_margin_mm",
+            |it| it.raft_margin_mm,
+            0.0,
+        ),
+        ("supports.profile.raft_slope", |it| it.raft_slope, 0.3),
+        ("supports.profile.raft_hole_mm", |it| it.raft_hole_mm, 0.0),
+        ("supports.profile.film_kpa", |it| it.film_kpa, 0.0),
+        ("supports.profile.tip_mpa", |it| it.tip_mpa, 0.1),
+    ];
+
     /// Radius that a contact holds on a surface of a slope (rise over run): `spacing_mm` on a level one, half as much
     /// again on one that just does not support itself.
     pub fn reach_mm(&self, slope: f64) -> f64 {
@@ -186,47 +277,35 @@ impl Supporting {
     /// Checks the lengths.
     pub(crate) fn check(&self) -> Result<(), BadLength> {
         let profile = self.profile();
-        let least = [
-            ("supports.profile.lift_mm", profile.lift_mm, 0.0),
-            (
-                "supports.profile.self_supporting_slope",
-                profile.self_supporting_slope,
-                0.01,
-            ),
-            ("supports.profile.spacing_mm", profile.spacing_mm, 0.5),
-            ("supports.profile.contact_mm", profile.contact_mm, 0.1),
-            (
-                "supports.profile.penetration_mm",
-                profile.penetration_mm,
-                0.0,
-            ),
-            ("supports.profile.tip_mm", profile.tip_mm, 0.5),
-            ("supports.profile.pillar_mm", profile.pillar_mm, 0.3),
-            ("supports.profile.clearance_mm", profile.clearance_mm, 0.1),
-            ("supports.profile.branch_mm", profile.branch_mm, 0.0),
-            ("supports.profile.brace_mm", profile.brace_mm, 2.0),
-            (
-                "supports.profile.foot_mm",
-                profile.foot_mm,
-                profile.pillar_mm,
-            ),
-            (
-                "supports.profile.foot_thickness_mm",
-                profile.foot_thickness_mm,
-                0.1,
-            ),
-            ("supports.profile.film_kpa", profile.film_kpa, 0.0),
-            ("supports.profile.tip_mpa", profile.tip_mpa, 0.1),
-        ];
+        let least = SupportProfile::LEAST.iter();
+        let least = least.map(|&(option, size, least)| (option, size(&profile), least));
+        let foot_mm = (
+            "supports.profile.foot_mm",
+            profile.foot_mm,
+            profile.pillar_mm,
+        );
+        // Supports need room between the raft and the model.
+        let below_mm = if profile.raft {
+            profile.raft_thickness_mm + LEAST_GAP_MM
+        } else {
+            0.0
+        };
+        let lift_mm = ("supports.profile.lift_mm", profile.lift_mm, below_mm);
         let points = self.points.iter().flatten();
         let points = points.filter_map(|point| point.contact_mm);
         let points = points.map(|mm| ("supports.points.contact_mm", mm, 0.1));
-        lengths::check(least.into_iter().chain(points), MOST_MM)
+        lengths::check(
+            least.chain([foot_mm, lift_mm]).chain(points),
+            MOST_SUPPORT_MM,
+        )
     }
 }
 
+/// Least distance between a raft and the model.
+const LEAST_GAP_MM: f64 = 1.0;
+
 /// The largest size of any part.
-const MOST_MM: f64 = 50.0;
+pub(crate) const MOST_SUPPORT_MM: f64 = 50.0;
 
 /// The supports of a model.
 #[derive(Debug, Clone, PartialEq)]
@@ -265,6 +344,28 @@ pub struct SupportLoad {
 }
 
 impl Supports {
+    /// Supports that a file brings along: their tips, on a model that stands on the plate, and the distance by which they lift it.
+    pub(crate) fn of_file(tips: &[Vec3], lift_mm: f64) -> Self {
+        let mut points: Vec<SupportPoint> = tips
+            .iter()
+            .map(|tip| SupportPoint {
+                at_mm: tip.as_dvec3().to_array(),
+                contact_mm: None,
+            })
+            .collect();
+        sort_by_number(&mut points, |it| -it.at_mm[2]);
+        Self {
+            shell: Shell::default(),
+            points,
+            unreached: Vec::new(),
+            astray: Vec::new(),
+            on_model: 0,
+            joints_mm: Vec::new(),
+            lift_mm,
+            load: None,
+        }
+    }
+
     /// The same, with every point at its place elsewhere. The shell is left out.
     pub(crate) fn moved(&self, place: impl Fn([f64; 3]) -> [f64; 3]) -> Self {
         let points = |points: &[SupportPoint]| {
@@ -344,28 +445,6 @@ pub fn support(
             hits: (room.x * room.y / (pitch_mm * pitch_mm)) as u64,
             needed_bytes: (MOST_NODES * Clearance::NODE_BYTES) as u64,
         });
-    /// Supports that a file brings along: their tips, on a model that stands on the plate, and the distance by which they lift it.
-    pub(crate) fn of_file(tips: &[Vec3], lift_mm: f64) -> Self {
-        let mut points: Vec<SupportPoint> = tips
-            .iter()
-            .map(|tip| SupportPoint {
-                at_mm: tip.as_dvec3().to_array(),
-                contact_mm: None,
-            })
-            .collect();
-        sort_by_number(&mut points, |it| -it.at_mm[2]);
-        Self {
-            shell: Shell::default(),
-            points,
-            unreached: Vec::new(),
-            astray: Vec::new(),
-            on_model: 0,
-            joints_mm: Vec::new(),
-            lift_mm,
-            load: None,
-        }
-    }
-
     };
     let ldi = cpu::sample(mesh, &grid, &mut |fraction| progress(0.2 * fraction))?;
     let surface = Surface::new(mesh);

@@ -2,6 +2,7 @@
 
 use glam::DVec3;
 
+use super::SupportProfile;
 use crate::argsort::sort_by_number;
 use crate::prepare::round::{circle, rim};
 use crate::prepare::shell::Shell;
@@ -12,6 +13,12 @@ const DOUBLINGS: u32 = 2;
 /// Ratio of a polyhedron of 16 by 16 corners to the ball inside it: the square of the secant of half the angle between
 /// two corners.
 const ENCLOSING: f64 = 1.04;
+
+/// Width of the bars and of the frame of a raft with holes.
+const BAR_MM: f64 = 2.0;
+
+/// Distance by which the disc under a foot in the middle of a hole overlaps the bars.
+const OVERLAP_MM: f64 = 0.3;
 
 /// Bodies, each a closed surface.
 #[derive(Debug)]
@@ -84,28 +91,92 @@ impl Shapes {
         }
     }
 
-    /// A plate under feet: the convex hull of circles around them, wider at its top by its thickness, so that a scraper gets under it.
-    pub fn raft(&mut self, feet: &[DVec3], radius_mm: f64, thickness_mm: f64) {
+    /// A plate under feet: the convex hull of circles around them, wider at its top, so that a scraper gets under it. With holes it has
+    /// bars along y below, bars along x and a frame across them, and a disc under each foot: no hole is closed around while it is printed,
+    /// so none sucks at the film.
+    pub fn raft(&mut self, feet: &[DVec3], profile: &SupportProfile) {
+        let radius_mm = profile.foot_mm / 2.0 + profile.raft_margin_mm;
+        let thickness_mm = profile.raft_thickness_mm;
+        let top_mm = radius_mm + thickness_mm / profile.raft_slope;
         let around = circle(DOUBLINGS);
         // Each point of an outline is a point of a circle around a foot.
         let mut rim: Vec<(DVec3, [f64; 2])> = Vec::new();
         for &foot in feet {
             rim.extend(around.iter().map(|&[x, y]| (foot, [x, y])));
         }
-        let bottom = |&(foot, [x, y]): &(DVec3, [f64; 2])| foot + DVec3::new(x, y, 0.0) * radius_mm;
-        let hull = hull(rim, bottom);
+        let outline = |radius_mm: f64, z_mm: f64| {
+            move |&(foot, [x, y]): &(DVec3, [f64; 2])| {
+                foot + DVec3::new(x * radius_mm, y * radius_mm, z_mm)
+            }
+        };
+        let hull = hull(rim, outline(radius_mm, 0.0));
         if hull.len() < 3 {
             return;
         }
-        let top = |&(foot, [x, y]): &(DVec3, [f64; 2])| {
-            let radius_mm = radius_mm + thickness_mm;
-            foot + DVec3::new(x * radius_mm, y * radius_mm, thickness_mm)
+        let of = |radius_mm: f64, z_mm: f64| -> Vec<DVec3> {
+            hull.iter().map(outline(radius_mm, z_mm)).collect()
         };
-        self.shell.drum(
-            hull.iter().map(bottom).collect(),
-            hull.iter().map(top).collect(),
-        );
+        let (bottom, top) = (of(radius_mm, 0.0), of(top_mm, thickness_mm));
+        let inner_mm = radius_mm - BAR_MM + self.wider_mm;
+        if profile.raft_hole_mm <= self.wider_mm || inner_mm <= 0.0 {
+            return self.shell.drum(bottom, top);
+        }
+        let half_mm = thickness_mm / 2.0;
+        let (outer, inner) = (of(radius_mm, half_mm), of(inner_mm, half_mm));
+        let above = of(inner_mm, thickness_mm);
+        for side in 0..hull.len() {
+            let next = (side + 1) % hull.len();
+            self.shell.drum(
+                vec![outer[side], outer[next], inner[next], inner[side]],
+                vec![top[side], top[next], above[next], above[side]],
+            );
+        }
+        let step_mm = profile.raft_hole_mm + BAR_MM;
+        self.bars(&of(radius_mm, 0.0), 0, step_mm, half_mm);
+        // They end within the frame.
+        self.bars(&of(radius_mm - BAR_MM / 2.0, half_mm), 1, step_mm, half_mm);
+        let disc_mm = (profile.foot_mm / 2.0).max(profile.raft_hole_mm / 2.0 + OVERLAP_MM);
+        for &foot in feet {
+            self.cone(foot, disc_mm, foot + DVec3::Z * thickness_mm, disc_mm);
+        }
     }
+
+    /// Bars across a convex polygon where a coordinate is constant, at most `step_mm` apart.
+    fn bars(&mut self, polygon: &[DVec3], axis: usize, step_mm: f64, thickness_mm: f64) {
+        let places = polygon.iter().map(|at| at[axis]);
+        let least_mm = places.clone().fold(f64::INFINITY, f64::min);
+        let most_mm = places.fold(f64::NEG_INFINITY, f64::max);
+        let steps = ((most_mm - least_mm) / step_mm).ceil();
+        let along = if axis == 0 { DVec3::X } else { DVec3::NEG_Y };
+        let across = along * (BAR_MM / 2.0 + self.wider_mm);
+        for bar in 1..steps as usize {
+            let at_mm = least_mm + (most_mm - least_mm) * (bar as f64 / steps);
+            let Some([from, to]) = chord(polygon, axis, at_mm) else {
+                continue;
+            };
+            let low = vec![from - across, from + across, to + across, to - across];
+            let high = low.iter().map(|&at| at + DVec3::Z * thickness_mm);
+            let high = high.collect();
+            self.shell.drum(low, high);
+        }
+    }
+}
+
+/// Ends of the line across a convex polygon on which a coordinate has this value, in ascending order of the other coordinate.
+fn chord(polygon: &[DVec3], axis: usize, at_mm: f64) -> Option<[DVec3; 2]> {
+    let next = polygon.iter().cycle().skip(1);
+    let mut cuts: Vec<DVec3> = Vec::new();
+    for (&a, &b) in polygon.iter().zip(next) {
+        if (a[axis] < at_mm) != (b[axis] < at_mm) {
+            cuts.push(a + (b - a) * ((at_mm - a[axis]) / (b[axis] - a[axis])));
+        }
+    }
+    let &[a, b] = &cuts[..] else { return None };
+    Some(if a[1 - axis] < b[1 - axis] {
+        [a, b]
+    } else {
+        [b, a]
+    })
 }
 
 /// The convex hull of points in the plane, counter-clockwise.

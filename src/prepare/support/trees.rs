@@ -589,7 +589,7 @@ impl<'a> Trees<'a> {
         }
         if profile.raft {
             let feet: Vec<DVec3> = feet.iter().map(|foot| foot.0).collect();
-            shapes.raft(&feet, profile.foot_mm, profile.foot_thickness_mm);
+            shapes.raft(&feet, &profile);
         }
         for &[low, high] in &self.braces {
             let radius_mm = BRACE * profile.pillar_mm / 2.0;

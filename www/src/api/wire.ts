@@ -45,6 +45,7 @@ export type {
   Snap,
   StlExpected,
   SupportPoint,
+  SupportProfile,
   SupportStrength,
   ThreeMfFeature,
   TradeoffPoint,

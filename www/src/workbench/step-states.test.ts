@@ -78,6 +78,8 @@ test("a plan that is not of the settings on show needs a look, and what is wrong
   expect(states({ earlier: true }).slice.mark).toBe("look");
   const wall = states({ settings: { wall: "0.1" }, faults: { wall: fault }, earlier: true });
   expect([wall.hollow.mark, wall.slice.mark]).toEqual(["wrong", "look"]);
+  const lift = states({ settings: { supports: "light" }, faults: { lift: fault }, earlier: true });
+  expect([lift.support, lift.slice.mark]).toEqual([{ words: "To be corrected", mark: "wrong" }, "look"]);
   const height = states({ faults: { height: fault } });
   expect([height.hollow.mark, height.slice]).toEqual([null, { words: "To be corrected", mark: "wrong" }]);
 });

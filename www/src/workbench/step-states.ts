@@ -4,6 +4,7 @@ import type { Verdict, Warning } from "../api/wire.js";
 import type { Checks } from "../element/state/checks.js";
 import type { Session } from "../element/state/session.js";
 import { parse } from "../element/state/settings.js";
+import { SIZE_FIELDS } from "../element/state/support-sizes.js";
 import type { Language } from "../texts/index.js";
 import type { Step } from "./places.js";
 import { workbenchWords } from "./texts.js";
@@ -24,11 +25,15 @@ const VERDICT_MARKS = { ok: "done", review: "look", reject: "wrong" } as const s
 /** Warnings that a void differs from the request. */
 const OF_VOIDS: readonly Warning["code"][] = ["nothing-hollowed", "drain-astray", "undrained"];
 
+/** Fields of the step of supports. */
+const OF_SUPPORTS = [...SIZE_FIELDS, "supportLayer"] as const;
+
 export function stepStates(session: Walked, language: Language): Readonly<Record<Step, StepState>> {
   const { settings, faults, result, shown, earlier, checks: { check } } = session;
   const { texts, format } = language;
   const { states: words } = workbenchWords(language);
-  const isWrong = Object.keys(faults).some((field) => field !== "wall");
+  const others: readonly string[] = ["wall", ...OF_SUPPORTS];
+  const isWrong = Object.keys(faults).some((field) => !others.includes(field));
   return {
     turn: settings.rotation === "" ? { words: words.asFile, mark: null } : { words: words.turned, mark: "done" },
     check: check === null ? { words: words.unchecked, mark: null } : { words: words.verdicts[check.verdict], mark: VERDICT_MARKS[check.verdict] },
@@ -52,11 +57,12 @@ function hollow({ settings, faults, result }: Walked, language: Language): StepS
   return { words: words.walls({ thickness: language.format.mm(wall_mm) }), mark: isAmiss ? "look" : "done" };
 }
 
-function support({ settings: { supports, format }, result }: Walked, language: Language): StepState {
+function support({ settings: { supports, format }, faults, result }: Walked, language: Language): StepState {
   const { states: words } = workbenchWords(language);
   if (isFilament(format)) return { words: "–", mark: null };
   const strength = language.texts.settings.strengths[supports];
   if (supports === "none") return { words: strength, mark: null };
+  if (OF_SUPPORTS.some((field) => faults[field] !== undefined)) return { words: words.wrong, mark: "wrong" };
   const supported = result?.own?.supported;
   // Points of another strength belong to an earlier plan.
   if (supported === undefined || result?.options.supports?.strength !== supports) return { words: strength, mark: "done" };

@@ -28,7 +28,8 @@ import {
 import { LEAST_MM, MOST_MM, type Placed as Point, type PlacedKind } from "../state/placed.js";
 import type { Download } from "../state/host.js";
 import type { Session } from "../state/session.js";
-import type { Settings } from "../state/settings.js";
+import { parse, type Settings } from "../state/settings.js";
+import { usualSize } from "../state/support-sizes.js";
 import { localised, read } from "../state/typed.js";
 import { lineIcon } from "../styles/shared.js";
 
@@ -132,7 +133,8 @@ export class PointEditor {
     const { format } = language;
     const { settings } = this.#session;
     const point = place === null ? undefined : list[place];
-    const usual_mm = FACTS.contacts_mm[settings.supports === "none" ? "medium" : settings.supports];
+    const strength = settings.supports === "none" ? "medium" : settings.supports;
+    const usual_mm = parse(settings.contact) ?? usualSize("contact", strength);
     const isNone = place === null || point === undefined;
     const said = isNone ? words[kind].none : words[kind].selected({ number: format.count(place + 1), all: format.count(list.length), height: format.height(point.at_mm[2]) });
     return html`<fieldset class="selected" ?disabled=${isNone}>

@@ -5,7 +5,7 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { FACTS, FORMATS, isFilament, usualOf } from "../../api/facts.js";
-import type { Format, MeshInfo, ModelUnit, Printer, Resin } from "../../api/wire.js";
+import type { Format, MeshInfo, ModelUnit, Printer, Resin, SupportStrength } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
@@ -14,6 +14,7 @@ import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
+import { SIZE_FIELDS, usualSize, type SizeField } from "../state/support-sizes.js";
 import { canonical, localised, read } from "../state/typed.js";
 import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
@@ -21,6 +22,7 @@ import { elementWith, given, own } from "../../view/properties.js";
 
 /** Settings that are initially hidden, unless one differs from its default. */
 const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
+const SIZES = [...SIZE_FIELDS, "raft", "supportLayer"] as const;
 
 /** The fields of a form: all, or those of one step of the workbench. */
 export type Fields = "all" | "hollow" | "supports" | "slice";
@@ -83,8 +85,8 @@ const PROPERTIES = {
 };
 
 export class CuspSettings extends elementWith(PROPERTIES) {
-  /** True if the hidden settings start expanded; null before any settings are given. */
-  #moreAtFirst: boolean | null = null;
+  /** Groups of hidden settings that start expanded; null before the first update. */
+  #openAtFirst: { readonly more: boolean; readonly sizes: boolean } | null = null;
   /** The last custom printer. */
   #own: Printer | null = null;
   /** Text of each field as typed, with the resulting setting. */
@@ -98,9 +100,10 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       // Changed elsewhere: by undo, an offer or a slider.
       if (changed.has("settings") && this.#setting(field) !== said) this.#typed.delete(field);
     }
-    // Settings from the URL must be visible. Afterwards the user expands and collapses them.
-    if (!changed.has("settings") || this.#moreAtFirst !== null) return;
-    this.#moreAtFirst = MORE.some((key) => (key !== "wall" || this.fields === "all") && this.settings[key] !== DEFAULT_SETTINGS[key]);
+    // Settings from the URL must be visible, as must those of a step. Afterwards the user expands and collapses them.
+    if (this.#openAtFirst !== null && !changed.has("fields")) return;
+    const isSet = (key: keyof Settings): boolean => this.settings[key] !== DEFAULT_SETTINGS[key];
+    this.#openAtFirst = { more: MORE.some((key) => (key !== "wall" || this.fields === "all") && isSet(key)), sizes: SIZES.some(isSet) };
   }
 
   override render(): TemplateResult {
@@ -243,7 +246,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const words = this.language.texts.settings;
     const { bottom_layers, bottom_exposure_s } = this.#cure;
     const isResin = !isFilament(this.settings.format);
-    return html`<details ?open=${this.#moreAtFirst}>
+    return html`<details ?open=${this.#openAtFirst?.more}>
       <summary>${words.more}</summary>
       <div class="more">
         ${isResin && this.fields === "all" ? this.#hollow() : nothing}
@@ -271,7 +274,25 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { texts: { settings: words } } = this.language;
     const { supports } = this.settings;
     const list = STRENGTHS.map((strength) => [strength, words.strengths[strength]] as const);
-    return this.#select("supports", words.supports, options(list, supports), { hint: words.supportsHint });
+    return html`${this.#select("supports", words.supports, options(list, supports), { hint: words.supportsHint })}
+      ${supports === "none" ? nothing : this.#sizes(supports)}`;
+  }
+
+  /** Sizes of supports, with those of the strength where none is typed. */
+  #sizes(strength: SupportStrength): TemplateResult {
+    const { settings: { raft, planner, layerMax }, language: { texts: { settings: words } } } = this;
+    const size = (field: SizeField, hint = ""): TemplateResult => this.#field(field, words[field], { hint, placeholder: String(usualSize(field, strength)) });
+    return html`<details ?open=${this.#openAtFirst?.sizes}>
+      <summary>${words.supportSizes}</summary>
+      <div class="more">
+        <div class="pair">${size("lift")} ${size("supportSpacing", words.supportSpacingHint)}</div>
+        <div class="pair">${size("contact")} ${size("pillar")}</div>
+        ${size("supportAngle", words.supportAngleHint)}
+        ${this.#radios("raft", words.raft, [["off", words.off], ["on", words.on]], words.raftHint)}
+        ${raft === "off" ? nothing : html`<div class="pair">${size("raftThickness")} ${size("raftMargin")}</div>`}
+        ${planner === "uniform" ? nothing : this.#field("supportLayer", words.supportLayer, { hint: words.supportLayerHint, placeholder: layerMax })}
+      </div>
+    </details>`;
   }
 
   /** Hollowing. Infill and drain holes appear once a wall thickness is set. */
@@ -373,7 +394,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
   }
 
-  #radios<Key extends "planner" | "minimize" | "snap">(
+  #radios<Key extends "planner" | "minimize" | "snap" | "raft">(
     key: Key,
     legend: string,
     choices: readonly (readonly [Settings[Key], string])[],

@@ -305,3 +305,54 @@ test("supports are of a strength, and for resin printers alone", () => {
   expect(toAddress(supported)).toBe("supports=light");
   expect(fromAddress("supports=light")).toEqual(supported);
 });
+
+test("sizes of supports replace those of the strength, if they differ", () => {
+  const supported = { supports: "light", lift: "8", supportSpacing: "2.5", contact: "0,35" } as const;
+  // The spacing is that of the strength.
+  expect(options(supported)).toMatchObject({ supports: { strength: "light", profile: { lift_mm: 8, contact_mm: 0.35 } } });
+  expect(options({ supports: "light", lift: " ", supportSpacing: "2.5" })).toHaveProperty("supports", { strength: "light" });
+  expect(options({ ...supported, supports: "none", lift: "x" })).not.toHaveProperty("supports");
+});
+
+test.each([
+  ["45", { self_supporting_slope: 1 }],
+  ["20", { self_supporting_slope: 0.364 }],
+  ["30", undefined],
+])("an angle of %s° is the slope %j", (supportAngle, profile) => {
+  expect(options({ supports: "heavy", supportAngle })).toHaveProperty("supports", { strength: "heavy", ...(profile && { profile }) });
+});
+
+test("a raft has sizes once it is on", () => {
+  const sizes = { supports: "medium", raftThickness: "1.5", raftMargin: "0" } as const;
+  expect(options({ ...sizes, raftThickness: "x" })).toHaveProperty("supports", { strength: "medium" });
+  expect(options({ ...sizes, raft: "on" })).toHaveProperty("supports.profile", { raft: true, raft_thickness_mm: 1.5, raft_margin_mm: 0 });
+  expect(faults({ ...sizes, raft: "on", raftThickness: "0.1" }).raftThickness).toBe("Must be 0.2 to 50 mm.");
+});
+
+test("sizes of supports are within the core's bounds, and a pillar is no wider than its foot", () => {
+  expect(faults({ supports: "light", supportSpacing: "0.4", pillar: "3.5", supportAngle: "89", lift: "6000" })).toEqual({
+    supportSpacing: "Must be 0.5 to 50 mm.",
+    pillar: "Must be 0.3 to 3 mm.",
+    supportAngle: "Must be 1 to 88°.",
+    lift: "Must be 0 to 50 mm. 6,000 µm is 6 mm.",
+  });
+});
+
+test("layers below the model are for supported models with adaptive layers", () => {
+  const thick = { supports: "light", supportLayer: "0.2" } as const;
+  expect(options(thick)).toMatchObject({ support_layer_mm: 0.2, layer_max_mm: 0.15 });
+  expect(options({ ...thick, points: "none" })).toHaveProperty("support_layer_mm", 0.2);
+  for (const other of [{ supports: "none" }, { planner: "uniform" }, { format: "prusa-3mf" }] as const) {
+    expect(options({ ...thick, supportLayer: "x", ...other })).not.toHaveProperty("support_layer_mm");
+    expect(faults({ ...thick, supportLayer: "x", ...other })).not.toHaveProperty("supportLayer");
+  }
+  expect(faults({ ...thick, printer: "p", supportLayer: "0.3" }, { printers: [PRINTER], resins: [] }).supportLayer).toBe("Must be 0.02 to 0.2 mm.");
+  expect(faults({ ...thick, supportLayer: "0.04" }).supportLayer).toMatch(/not be thinner/);
+});
+
+test("a query keeps the sizes of supports", () => {
+  const query = "supports=light&raft=on&supportLayer=0.2&lift=8&supportSpacing=2&contact=0.5&pillar=1.2&supportAngle=40&raftThickness=1.5&raftMargin=3";
+  expect(fromAddress(query)).toMatchObject({ raft: "on", supportLayer: "0.2", lift: "8", supportAngle: "40", raftMargin: "3" });
+  expect(toAddress(fromAddress(query))).toBe(query);
+  expect(fromAddress("supportAngle=40%C2%B0&lift=0,8cm")).toMatchObject({ supportAngle: "40", lift: "8" });
+});

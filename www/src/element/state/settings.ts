@@ -6,6 +6,7 @@ import { currentName, METRIC_NAMES, METRICS } from "./metric.js";
 import { NO_POINTS, placedFrom, placedText } from "./placed.js";
 import { ADDRESS_CHARS, printerFrom, printerOf, printerText, type ChosenPrinter } from "./printer.js";
 import * as round from "./round.js";
+import { profileOf, type Sizes } from "./support-sizes.js";
 import { canonical, read, UNITS_SHOWN, type FieldUnit, type Misread } from "./typed.js";
 
 /** Lengths in mm: canonical numbers, or invalid text as typed. */
@@ -19,6 +20,8 @@ interface Lengths {
   wall: string;
   /** Nozzle diameter of a filament printer; empty for the usual one. */
   nozzle: string;
+  /** Maximum layer thickness below the model; empty for that of all layers. */
+  supportLayer: string;
 }
 
 /** Exposures in s and a count, likewise; empty for the resin's own. */
@@ -39,13 +42,13 @@ interface Choices {
   saliency: "off" | "on";
   /** Strength of supports. */
   supports: "none" | SupportStrength;
-  /** If on, automatic supports are added to those by hand. */
-  fill: "off" | "on";
-  /** If on, automatic supports and drain holes avoid areas painted as important. */
   /** If allowed, print files of supported models are written although pieces float in the vat. */
   floating: "refuse" | "allow";
   /** If on, all supports stand on one raft. */
   raft: "off" | "on";
+  /** If on, automatic supports are added to those by hand. */
+  fill: "off" | "on";
+  /** If on, automatic supports and drain holes avoid areas painted as important. */
   protect: "off" | "on";
   /** Infill of a hollow model's void. */
   infill: "none" | "lattice";
@@ -71,13 +74,13 @@ interface Names {
   drains: string;
 }
 
-export interface Settings extends Lengths, Curing, Choices, Names {
+export interface Settings extends Lengths, Sizes, Curing, Choices, Names {
   /** Tolerances, likewise, each in the unit of its metric; if absent or empty, the core's default. */
   tolerances: Readonly<Partial<Record<Metric, string>>>;
 }
 
 /** A text field, which may be invalid. */
-export type Field = keyof Lengths | keyof Curing | "tolerance";
+export type Field = keyof Lengths | keyof Sizes | keyof Curing | "tolerance";
 
 /** Fault of a field. */
 export type Fault =
@@ -108,6 +111,14 @@ export const DEFAULT_SETTINGS: Settings = {
   step: "",
   wall: "",
   nozzle: "",
+  supportLayer: "",
+  lift: "",
+  supportSpacing: "",
+  contact: "",
+  pillar: "",
+  supportAngle: "",
+  raftThickness: "",
+  raftMargin: "",
   planner: "optimal",
   metric: DEFAULTS.metric,
   minimize: DEFAULTS.minimize,
@@ -115,6 +126,8 @@ export const DEFAULT_SETTINGS: Settings = {
   rays: String(DEFAULTS.rays),
   saliency: DEFAULTS.saliency ? "on" : "off",
   supports: "none",
+  floating: "refuse",
+  raft: "off",
   fill: "off",
   protect: "off",
   infill: "none",
@@ -126,8 +139,6 @@ export const DEFAULT_SETTINGS: Settings = {
   resin: "",
   rotation: "",
   points: "",
-  floating: "refuse",
-  raft: "off",
   drains: "",
   exposure: "",
   bottomExposure: "",
@@ -186,7 +197,7 @@ export function withPrinter(settings: Settings, printer: ChosenPrinter): Partial
 }
 
 /** Units of the typed numbers, in the order of a URL. */
-const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
+const UNITS: Readonly<Record<keyof Lengths | keyof Sizes | keyof Curing, FieldUnit>> = {
   height: "mm",
   layerMin: "mm",
   layerMax: "mm",
@@ -194,6 +205,14 @@ const UNITS: Readonly<Record<keyof Lengths | keyof Curing, FieldUnit>> = {
   step: "mm",
   wall: "mm",
   nozzle: "mm",
+  supportLayer: "mm",
+  lift: "mm",
+  supportSpacing: "mm",
+  contact: "mm",
+  pillar: "mm",
+  supportAngle: "°",
+  raftThickness: "mm",
+  raftMargin: "mm",
   exposure: "s",
   bottomExposure: "s",
   bottomLayers: "",
@@ -216,6 +235,8 @@ const CHOICES: { readonly [Key in keyof Choices]: readonly Choices[Key][] } = {
   rays: RAYS.map(String),
   saliency: ["off", "on"],
   supports: ["none", "light", "medium", "heavy"],
+  floating: ["refuse", "allow"],
+  raft: ["off", "on"],
   fill: ["off", "on"],
   protect: ["off", "on"],
   infill: ["none", "lattice"],
@@ -235,8 +256,6 @@ function current(address: URLSearchParams): URLSearchParams {
 
 /**
  * Settings from a URL query such as `?height=60&metric=area&tolerance=5`, based on the defaults; other parameters are ignored. Numbers are
-  floating: ["refuse", "allow"],
-  raft: ["off", "on"],
  * checked later, like typed ones, and may have a decimal comma and a unit. An unknown choice is ignored, as no field could show it.
  */
 export function fromAddress(query: string): Settings {
@@ -335,14 +354,16 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   }
   if (settings.unit !== "") options.unit = settings.unit;
   const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
-  const layer = (field: "layerMin" | "layerMax" | "uniform"): number =>
+  const layer = (field: "layerMin" | "layerMax" | "uniform" | "supportLayer"): number =>
     within(field, settings[field], thinnest, thickest);
   if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
 
   const isProtecting = settings.protect === "on";
   // Slicers for filament printers add supports and hollow by themselves.
-  if (settings.supports !== "none" && settings.points !== NO_POINTS && !isFilament(settings.format)) {
-    options.supports = { strength: settings.supports };
+  const strength = isFilament(settings.format) ? "none" : settings.supports;
+  const profile = strength === "none" ? null : profileOf(settings, strength, within);
+  if (strength !== "none" && settings.points !== NO_POINTS) {
+    options.supports = { strength, ...(profile !== null && { profile }) };
     const points = placedFrom(settings.points, "points") ?? [];
     if (points.length > 0) {
       options.supports.points = points.map(({ at_mm, diameter_mm }) => ({ at_mm: [...at_mm], ...(diameter_mm !== null && { contact_mm: diameter_mm }) }));
@@ -374,6 +395,12 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const min = (options.layer_min_mm = layer("layerMin"));
   const max = (options.layer_max_mm = layer("layerMax"));
   if (min > max) faults.layerMax = { kind: "upsideDown" };
+  if (strength !== "none" && settings.floating === "allow") options.allow_floating = true;
+  // Other models of the plate may have supports where this one has none.
+  if (strength !== "none" && planner !== "uniform" && settings.supportLayer.trim() !== "") {
+    options.support_layer_mm = layer("supportLayer");
+    if (min > options.support_layer_mm) faults.supportLayer = { kind: "upsideDown" };
+  }
 
   const typed = settings.tolerances[metric] ?? "";
   if (typed.trim() !== "") {
@@ -395,12 +422,6 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const rotation = quaternion(settings.rotation);
   if (rotation !== null) options.rotation = rotation;
 
-  if (strength !== "none" && settings.floating === "allow") options.allow_floating = true;
-  // Other models of the plate may have supports where this one has none.
-  if (strength !== "none" && planner !== "uniform" && settings.supportLayer.trim() !== "") {
-    options.support_layer_mm = layer("supportLayer");
-    if (min > options.support_layer_mm) faults.supportLayer = { kind: "upsideDown" };
-  }
   return Object.keys(faults).length === 0 ? { ok: true, options } : { ok: false, faults };
 }
 
@@ -415,7 +436,7 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
       return faults.unit({ units: format.either(UNITS_SHOWN[fault.unit]) });
     default: {
       const { kind, value, least, most, unit } = fault;
-      const range = faults.between({ least: format.tick(least), most: format.tick(most), unit: unit === "" ? "" : ` ${unit}` });
+      const range = faults.between({ least: format.tick(least), most: format.tick(most), unit: unit === "" || unit === "°" ? unit : ` ${unit}` });
       const words = faults[kind]({ range });
       if (value === null) return words;
       const asMicrometres = value / 1000;

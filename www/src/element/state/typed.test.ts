@@ -46,6 +46,7 @@ test.each([
   ["1.5 mm³", "mm³", "1.5"],
   ["1,5mm3", "mm³", "1.5"],
   ["2 mm^3", "mm³", "2"],
+  ["30°", "°", "30"],
   ["6", "", "6"],
 ] as const)("%j in a field of %s is %s", (text, unit, value) => {
   expect(canonical(text, unit, ".")).toBe(value);

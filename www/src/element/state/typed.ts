@@ -4,7 +4,7 @@
  */
 
 /** Unit of a field; empty for a count. */
-export type FieldUnit = "mm" | "s" | "%" | "mm³" | "";
+export type FieldUnit = "mm" | "s" | "%" | "mm³" | "°" | "";
 
 /** Reason for which a text is not a valid number: not a number at all, an unsuitable unit, or possible digit grouping. */
 export type Misread = "number" | "unit" | "grouped";
@@ -26,6 +26,7 @@ const UNITS: Readonly<Record<FieldUnit, ReadonlyMap<string, number>>> = {
   s: new Map([["s", 1], ["sec", 1], ["ms", 0.001], ["min", 60]]),
   "%": new Map([["%", 1]]),
   "mm³": new Map([["mm^3", 1], ["mm3", 1]]),
+  "°": new Map([["°", 1], ["deg", 1]]),
   "": new Map(),
 };
 
@@ -35,6 +36,7 @@ export const UNITS_SHOWN: Readonly<Record<FieldUnit, readonly string[]>> = {
   s: ["s", "ms", "min"],
   "%": ["%"],
   "mm³": ["mm³"],
+  "°": ["°"],
   "": [],
 };
 

@@ -1,0 +1,61 @@
+/** Sizes of supports as settings: typed numbers, or empty text for those of the strength. The form has an angle for the core's slope. */
+import { FACTS } from "../../api/facts.js";
+import type { SupportProfile, SupportStrength } from "../../api/wire.js";
+
+/** The fields, with the names of the sizes in the core's options. */
+const NAMES = {
+  lift: "lift_mm",
+  supportSpacing: "spacing_mm",
+  contact: "contact_mm",
+  pillar: "pillar_mm",
+  supportAngle: "self_supporting_slope",
+  raftThickness: "raft_thickness_mm",
+  raftMargin: "raft_margin_mm",
+} as const satisfies Record<string, keyof typeof FACTS.support_least>;
+
+export type SizeField = keyof typeof NAMES;
+
+/** Sizes in mm, and in degrees from level: canonical numbers, or invalid text as typed. */
+export type Sizes = Record<SizeField, string>;
+
+export const SIZE_FIELDS = Object.keys(NAMES) as SizeField[];
+
+const DEGREES = 180 / Math.PI;
+
+const angleOf = (slope: number): number => Math.atan(slope) * DEGREES;
+const slopeOf = (angle_deg: number): number => Number(Math.tan(angle_deg / DEGREES).toFixed(4));
+
+/** A strength's own size, in the unit of the field. */
+export function usualSize(field: SizeField, strength: SupportStrength): number {
+  const size = FACTS.supports[strength][NAMES[field]];
+  return field === "supportAngle" ? Math.round(angleOf(size)) : size;
+}
+
+/** Bounds of a size, in the unit of the field. */
+function boundsOf(field: SizeField, strength: SupportStrength): [least: number, most: number] {
+  const least = FACTS.support_least[NAMES[field]];
+  if (field === "supportAngle") return [Math.ceil(angleOf(least)), Math.floor(angleOf(FACTS.support_most_mm))];
+  // A pillar is no wider than its foot.
+  return [least, field === "pillar" ? FACTS.supports[strength].foot_mm : FACTS.support_most_mm];
+}
+
+/**
+ * The sizes that differ from those of a strength; null if none do. Those of a raft that is off are not checked.
+ *
+ * @param within reads the number of a field, and reports one out of bounds
+ */
+export function profileOf(
+  settings: Readonly<Sizes> & { readonly raft: "off" | "on" },
+  strength: SupportStrength,
+  within: (field: SizeField, text: string, least: number, most: number) => number,
+): SupportProfile | null {
+  const hasRaft = settings.raft === "on";
+  const profile: SupportProfile = hasRaft ? { raft: true } : {};
+  for (const field of SIZE_FIELDS) {
+    const isUnused = !hasRaft && (field === "raftThickness" || field === "raftMargin");
+    if (isUnused || settings[field].trim() === "") continue;
+    const size = within(field, settings[field], ...boundsOf(field, strength));
+    if (size !== usualSize(field, strength)) profile[NAMES[field]] = field === "supportAngle" ? slopeOf(size) : size;
+  }
+  return Object.keys(profile).length === 0 ? null : profile;
+}
