@@ -369,9 +369,9 @@ impl Warning {
                 "supports of the file hold the model at {}; {}",
                 counted(*tips, "point"),
                 if *replaced {
-                    "those that you ask for replace them"
+                    "those that you chose replace them"
                 } else {
-                    "they are printed as they are, or can be read as parts of the model"
+                    "they are printed as they are"
                 }
             ),
             _ => Ok(()),

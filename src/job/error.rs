@@ -70,7 +70,7 @@ pub enum Error {
     },
     /// Pieces of supported models begin with nothing below them, and would float in the vat.
     #[error(
-        "{} nothing below, the largest of {volume_mm3:.2} mm³ in layer {layer_number} at {:.2}, {:.2}, {:.2}: add supports there, turn the \
+        "{} nothing below, the largest of {volume_mm3:.2} mm³ in layer {layer_number} at {:.2}, {:.2}, {:.2}; add supports there, turn the \
          model, or allow floating pieces",
         if *pieces == 1 { "a piece begins with".to_owned() } else { format!("{pieces} pieces begin with") },
         at_mm[0],

@@ -178,16 +178,13 @@ impl Options {
             count: 1,
             size_mm: bin_mm,
         };
-        match self.planner {
-            Planner::Uniform { layer_mm } => {
-                uniform::thickness_in_bins(bins, layer_mm)?;
-            }
-            _ => {
-                let limits = layering.limits(self.tolerance.unwrap_or(usual));
-                limits.check(bins)?;
-                if let Some(most_mm) = self.support_layer_mm {
-                    limits.thickness(bins, layer_min_mm, most_mm)?;
-                }
+        if let Planner::Uniform { layer_mm } = self.planner {
+            uniform::thickness_in_bins(bins, layer_mm)?;
+        } else {
+            let limits = layering.limits(self.tolerance.unwrap_or(usual));
+            limits.check(bins)?;
+            if let Some(most_mm) = self.support_layer_mm {
+                limits.thickness(bins, layer_min_mm, most_mm)?;
             }
         }
         if self.support_layer_mm.is_some() && !self.planner.is_adaptive() {

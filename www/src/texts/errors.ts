@@ -104,7 +104,7 @@ export const errors = {
     layers: "No plan has at most {layers|count} layers; it takes at least {least_layers|count}.",
     time: "No plan prints in at most {time_s|exact}\u00a0s; it takes at least {least_time_s|exact}\u00a0s.",
   },
-  "floating-pieces": "{pieces|one:# piece begins|other:# pieces begin} with nothing below, the largest of {volume_mm3|volume} in layer {layer_number|count} at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; add supports there, or turn the model.",
+  "floating-pieces": "{pieces|one:# piece begins|other:# pieces begin} with nothing below, the largest of {volume_mm3|volume} in layer {layer_number|count} at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; add supports there, turn the model, or allow floating pieces.",
   "no-plan": "There is no plan yet; make one first.",
   "memory-bound": "This takes about {needed_bytes|count} bytes of memory, and {allowed_bytes|count} are allowed; allow more, or choose larger pixels.",
   "time-bound": {

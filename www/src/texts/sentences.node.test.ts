@@ -57,7 +57,7 @@ const warningIn = (language: Language, { code, detail }: Omit<Sample, "message">
 /** Details shown by offers, or not needed by readers. */
 const UNSAID = ["least_tolerance", "largest_layer_min_mm", "planner"];
 /** Fields that sentences say as words. */
-const TRANSLATED = ["work", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
+const TRANSLATED = ["work", "replaced", "kind", "expected", "quantity", "fault", "feature", "metric", "unit", "stated", "given"];
 
 /** Returns true if a sentence contains a number in the language's format, or a name unchanged. */
 function says(sentence: string, value: unknown, format: Format): boolean {

@@ -4,7 +4,7 @@ import type { Printer, Warning } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { advise, adviseOn } from "./advice.js";
 import { explain as explainIn, type Failure } from "./problem.js";
-import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
+import { check, DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 const ENGLISH = languageOf("en");
 
@@ -254,6 +254,15 @@ test("a format that cannot hold test towers offers no other settings for them", 
   const failure = { error: uniformOnly(undefined), task: "towers", name: "", settings: DEFAULT_SETTINGS, height_mm: 60 } as const;
   const problem = explainIn(failure, ENGLISH, new Set());
   expect(problem).toMatchObject({ title: "This print file takes uniform layers only", field: "format", offers: [] });
+});
+
+test("a print file with floating pieces can be saved all the same", () => {
+  const error = failed("floating-pieces", { pieces: 2, volume_mm3: 3.25, layer_number: 41, at_mm: [1.5, -2, 2.05] });
+  const problem = explain(error, "ball.stl", { ...DEFAULT_SETTINGS, supports: "light" });
+  expect(problem).toMatchObject({ title: "Pieces of the print would float in the vat", field: "supports" });
+  expect(problem.offers).toEqual([{ label: "Save it all the same", change: { floating: "allow" } }]);
+  const settled = check({ ...DEFAULT_SETTINGS, supports: "light", floating: "allow" });
+  expect(settled).toMatchObject({ ok: true, options: { allow_floating: true } });
 });
 
 test("of a project with several plates another can be chosen", () => {

@@ -86,6 +86,7 @@ const CHANGES: { readonly [Key in keyof Settings]: readonly [change: Settings[Ke
   contact: ["0.5", true],
   pillar: ["1.2", true],
   supportAngle: ["40", true],
+  floating: ["allow", false],
   raft: ["on", true],
   points: ["1,1,5,,1", true],
   protect: ["on", true],
