@@ -34,11 +34,21 @@ pub(crate) fn bodies(vertices: usize, facets: &[[u32; 3]]) -> Vec<u32> {
         .collect()
 }
 
-/// The number of bodies, and which facets belong to those that face the wrong way: bodies inside out that do not lie within another,
-/// and cavities of such bodies. `None` if there are none.
+/// The bodies of a mesh.
+pub(super) struct Bodies {
+    /// Number of bodies.
+    pub count: usize,
+    /// Distance of the largest one from the lowest point of all.
+    pub largest_above: f64,
+    /// The facets of those that face the wrong way: bodies inside out that do not lie within another, and cavities of such bodies. `None`
+    /// if there are none.
+    pub wrong: Option<Vec<bool>>,
+}
+
+/// Finds the bodies of a mesh, and those that face the wrong way.
 ///
 /// Cost: linear in facets. With bodies inside out, each facet also meets the test points of bodies in its range of x.
-pub(super) fn misoriented(mesh: &Mesh) -> (usize, Option<Vec<bool>>) {
+pub(super) fn find(mesh: &Mesh) -> Bodies {
     let body_of = bodies(mesh.vertices.len(), &mesh.facets);
     let mut found: Vec<Body> = Vec::new();
     let mut number_of = vec![u32::MAX; mesh.vertices.len()];
@@ -56,8 +66,16 @@ pub(super) fn misoriented(mesh: &Mesh) -> (usize, Option<Vec<bool>>) {
     for (facet, &number) in numbers.iter().enumerate() {
         found[number as usize].add(mesh.corners(facet));
     }
+    let lowest = found.iter().map(Body::lowest).fold(f64::INFINITY, f64::min);
+    let larger = |a: &&Body, b: &&Body| a.sixfold_mm3.total_cmp(&b.sixfold_mm3);
+    let largest = found.iter().max_by(larger);
+    let mut bodies = Bodies {
+        count: found.len(),
+        largest_above: largest.map_or(0.0, |it| it.lowest() - lowest),
+        wrong: None,
+    };
     if found.iter().all(|body| body.sixfold_mm3 >= 0.0) {
-        return (found.len(), None);
+        return bodies;
     }
     let windings = windings(mesh, &numbers, &found);
     let is_wrong: Vec<bool> = found
@@ -72,8 +90,8 @@ pub(super) fn misoriented(mesh: &Mesh) -> (usize, Option<Vec<bool>>) {
         })
         .collect();
     let wrong = numbers.iter().map(|&number| is_wrong[number as usize]);
-    let wrong = is_wrong.contains(&true).then(|| wrong.collect());
-    (found.len(), wrong)
+    bodies.wrong = is_wrong.contains(&true).then(|| wrong.collect());
+    bodies
 }
 
 struct Body {
@@ -110,6 +128,10 @@ impl Body {
                 }
             }
         }
+    }
+
+    fn lowest(&self) -> f64 {
+        self.ends[2].z
     }
 
     /// Points just within its ends.

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 
-use super::bodies::misoriented;
+use super::bodies;
 use super::class::{FacetClass, FacetClasses};
 use super::curved_cap::Bent;
 use super::edges::{Neighbours, edges};
@@ -102,6 +102,8 @@ pub struct Mesh {
     centroids_from: u32,
     /// The vertices, from one to another, that are the tips of supports in the file. No facet has them.
     tips: [u32; 2],
+    /// Distance of the largest body from the lowest point, in the unit of the file.
+    pub(super) largest_above: f64,
 }
 
 /// The most that a model may measure in x, y or z.
@@ -179,6 +181,7 @@ impl Mesh {
             contradictory_edges,
             centroids_from,
             tips: [0; 2],
+            largest_above: 0.0,
         };
         let mut turn_over = |mesh: &mut Self, wrong: &[bool]| {
             turn(&mut mesh.facets, wrong);
@@ -192,9 +195,9 @@ impl Mesh {
             let all = vec![true; mesh.facets.len()];
             turn_over(&mut mesh, &all);
         }
-        let (bodies, wrong) = misoriented(&mesh);
-        mesh.bodies = bodies;
-        if let Some(wrong) = wrong {
+        let found = bodies::find(&mesh);
+        (mesh.bodies, mesh.largest_above) = (found.count, found.largest_above);
+        if let Some(wrong) = found.wrong {
             turn_over(&mut mesh, &wrong);
         }
         let surface = turned.iter().take(surface_facets);

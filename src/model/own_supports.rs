@@ -71,10 +71,10 @@ struct Member {
 ///
 /// Cost: linear in facets, and in pairs of thin bodies that overlap in x.
 pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
-    if mesh.bodies < 2 {
+    let mm = 1.0 / unit_mm;
+    if mesh.largest_above < LIFTED_MM * mm {
         return None;
     }
-    let mm = 1.0 / unit_mm;
     let (number_of, members) = members(mesh, mm);
     let plate = members
         .iter()
