@@ -195,34 +195,49 @@ fn members(mesh: &Mesh, mm: f64) -> (Vec<u32>, Vec<Member>) {
 
 impl Member {
     fn new(mesh: &Mesh, facets: &[usize], mm: f64) -> Self {
-        let mut vertices: Vec<u32> = facets.iter().flat_map(|&it| mesh.facets[it]).collect();
-        vertices.sort_unstable();
-        vertices.dedup();
-        let points: Vec<DVec3> = vertices
-            .iter()
-            .map(|&it| mesh.vertices[it as usize].as_dvec3())
-            .collect();
-        let first = points[0];
+        let first = mesh.corners(facets[0])[0];
+        let (mut min, mut max) = (first, first);
         let (mut volume, mut area) = (0.0, 0.0);
         for &facet in facets {
-            let [a, b, c] = mesh.corners(facet).map(|corner| corner - first);
+            let corners = mesh.corners(facet);
+            for corner in corners {
+                (min, max) = (min.min(corner), max.max(corner));
+            }
+            let [a, b, c] = corners.map(|corner| corner - first);
             volume += sixfold_volume([a, b, c]) / 6.0;
             area += (b - a).cross(c - a).length() / 2.0;
         }
-        let (ends, radii) = cone(&points);
+        let mut member = Self {
+            min,
+            max,
+            ends: [first; 2],
+            radii: [0.0; 2],
+            volume,
+            is_thin: volume > 0.0 && 4.0 * volume <= THICKEST_MM * mm * area,
+            is_cone: false,
+            vertices: Vec::new(),
+        };
+        // The model itself needs no more.
+        if member.is_thin || max.z - min.z <= FLAT_MM * mm {
+            let corners = facets.iter().flat_map(|&it| mesh.facets[it]);
+            member.vertices.extend(corners);
+            member.vertices.sort_unstable();
+            member.vertices.dedup();
+            member.lay_cone(mesh);
+        }
+        member
+    }
+
+    /// Lays a cone along the member.
+    fn lay_cone(&mut self, mesh: &Mesh) {
+        let vertices = self.vertices.iter();
+        let points = vertices.map(|&it| mesh.vertices[it as usize].as_dvec3());
+        let (ends, radii) = cone(&points.collect::<Vec<_>>());
         let [low, high] = radii;
         let length = ends[0].distance(ends[1]);
         let filled = std::f64::consts::FRAC_PI_3 * length * (low * low + low * high + high * high);
-        Self {
-            min: points.iter().copied().fold(first, DVec3::min),
-            max: points.iter().copied().fold(first, DVec3::max),
-            ends,
-            radii,
-            volume,
-            is_thin: volume > 0.0 && 4.0 * volume <= THICKEST_MM * mm * area,
-            is_cone: FILLING.contains(&(volume / filled)),
-            vertices,
-        }
+        self.is_cone = FILLING.contains(&(self.volume / filled));
+        (self.ends, self.radii) = (ends, radii);
     }
 
     /// Returns true if an end is as narrow as a tip.
