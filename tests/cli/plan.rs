@@ -310,7 +310,7 @@ fn a_supported_model_is_lifted_and_written_for_other_programs() {
     assert_fails(
         &cusp(&["plan", &ball, "--lift", "4"]),
         1,
-        "are for supported models: add --supports",
+        "--lift, --raft and --support-size are for supported models: add --supports",
     );
     // Sizes by name, a raft, and thick layers below the model.
     let sized = plan(&[

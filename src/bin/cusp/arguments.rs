@@ -538,11 +538,7 @@ impl Choices {
             let text = "--lift, --raft and --support-size are for supported models: add --supports";
             return Err(Failure::from(text.to_owned()));
         };
-        let mut all = json!(supports.profile());
-        if let Some(all) = all.as_object_mut() {
-            all.extend(sizes);
-        }
-        let profile = serde_json::from_value(all);
+        let profile = supports.profile().with_sizes(sizes);
         supports.profile = Some(profile.map_err(|error| {
             Failure::from(format!(
                 "--support-size: {}",

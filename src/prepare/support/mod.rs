@@ -66,13 +66,8 @@ impl TryFrom<Asked> for Supporting {
     type Error = serde_json::Error;
 
     fn try_from(asked: Asked) -> Result<Self, serde_json::Error> {
-        let profile = asked.profile.map(|sizes| {
-            let mut all = serde_json::to_value(asked.strength.profile())?;
-            if let Value::Object(all) = &mut all {
-                all.extend(sizes);
-            }
-            serde_json::from_value(all)
-        });
+        let usual = asked.strength.profile();
+        let profile = asked.profile.map(|sizes| usual.with_sizes(sizes));
         Ok(Self {
             strength: asked.strength,
             profile: profile.transpose()?,
@@ -260,6 +255,18 @@ impl SupportProfile {
         ("supports.profile.film_kpa", |it| it.film_kpa, 0.0),
         ("supports.profile.tip_mpa", |it| it.tip_mpa, 0.1),
     ];
+
+    /// The profile with other sizes, by their names in the options.
+    ///
+    /// # Errors
+    /// A size that is unknown, or of another type.
+    pub fn with_sizes(self, sizes: Map<String, Value>) -> serde_json::Result<Self> {
+        let mut all = serde_json::to_value(self)?;
+        if let Value::Object(all) = &mut all {
+            all.extend(sizes);
+        }
+        serde_json::from_value(all)
+    }
 
     /// Radius that a contact holds on a surface of a slope (rise over run): `spacing_mm` on a level one, half as much
     /// again on one that just does not support itself.
