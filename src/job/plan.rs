@@ -50,11 +50,11 @@ impl Job {
             let upright = self.upright(options, &layout, &models)?;
             let known = last.iter_mut().chain(&mut self.plates);
             let kept = known
-                .map(|it| (&it.planned, &it.offsets, &mut it.seen))
+                .map(|it| (&it.planned, &it.offsets, &mut it.seen, it.is_held))
                 .find(|(planned, ..)| planned.is_of(&models, &layering));
-            let (planned, seen) = if let Some((planned, of, seen)) = kept {
+            let (planned, seen, is_held) = if let Some((planned, of, seen, is_held)) = kept {
                 let seen = if *of == offsets { seen.take() } else { None };
-                (Arc::clone(planned), seen)
+                (Arc::clone(planned), seen, is_held)
             } else {
                 #[cfg(not(target_arch = "wasm32"))]
                 if let Some(allowed_s) = self.sampler.cpu_time_s() {
@@ -66,7 +66,7 @@ impl Job {
                 let planned = Planned::new(models, &layering, &mut within);
                 let planned = planned.map_err(|error| layout.shared.typeable(error))?;
                 timings.plan += ms_since(clock);
-                (Arc::new(planned), None)
+                (Arc::new(planned), None, false)
             };
             timings.sum_up();
             let number = [number, count];
@@ -78,7 +78,7 @@ impl Job {
                 output: layout.resolved.output.clone(),
                 report,
                 seen,
-                is_held: false,
+                is_held,
             });
         }
         tell(progress, Stage::Plan, 1.0)?;

@@ -102,11 +102,11 @@ impl Plate {
     /// The masks of its print file in groups; `None` if the file has no masks, if they have to be read slab by slab, or if sending them
     /// takes as long as encoding them.
     pub fn layer_groups(&mut self) -> Result<Option<LayerGroups>, Error> {
-        self.check_floating(&mut |_, _| ControlFlow::Continue(()))?;
         // Masks of a mirroring printer are not kept: they would be made a second time when the file is written.
         if !self.output.format.is_zip() || !self.are_all_held() {
             return Ok(None);
         }
+        self.check_floating(&mut |_, _| ControlFlow::Continue(()))?;
         let masks = self.shown()?;
         Ok(Some(LayerGroups {
             place: PlateReadPlace::new(&masks),
