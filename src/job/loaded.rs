@@ -70,8 +70,7 @@ impl LoadedModel {
         let all_curved = facts.file.curved_caps;
         let mut mesh = Mesh::with_caps(triangles, all_curved)?;
         if !facts.file.supports_as_model {
-            // Files that state a unit are read in millimetres.
-            mesh = mesh.with_own_supports(triangles, all_curved, 1.0)?;
+            mesh = mesh.with_own_supports(triangles, all_curved)?;
         }
         Ok(Self {
             mesh,

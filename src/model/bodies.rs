@@ -34,6 +34,22 @@ pub(crate) fn bodies(vertices: usize, facets: &[[u32; 3]]) -> Vec<u32> {
         .collect()
 }
 
+/// The number of each facet's body, in the order of first facets, and the vertex that identifies each body.
+pub(super) fn numbered(mesh: &Mesh) -> (Vec<u32>, Vec<u32>) {
+    let body_of = bodies(mesh.vertices.len(), &mesh.facets);
+    let mut roots = Vec::new();
+    let mut number_of = vec![u32::MAX; mesh.vertices.len()];
+    let numbers = body_of.into_iter().map(|root| {
+        let number = &mut number_of[root as usize];
+        if *number == u32::MAX {
+            *number = roots.len() as u32;
+            roots.push(root);
+        }
+        *number
+    });
+    (numbers.collect(), roots)
+}
+
 /// The bodies of a mesh.
 pub(super) struct Bodies {
     /// Number of bodies.
@@ -49,20 +65,10 @@ pub(super) struct Bodies {
 ///
 /// Cost: linear in facets. With bodies inside out, each facet also meets the test points of bodies in its range of x.
 pub(super) fn find(mesh: &Mesh) -> Bodies {
-    let body_of = bodies(mesh.vertices.len(), &mesh.facets);
-    let mut found: Vec<Body> = Vec::new();
-    let mut number_of = vec![u32::MAX; mesh.vertices.len()];
-    let numbers: Vec<u32> = body_of
-        .iter()
-        .map(|&root| {
-            let number = &mut number_of[root as usize];
-            if *number == u32::MAX {
-                *number = found.len() as u32;
-                found.push(Body::new(mesh.vertices[root as usize].as_dvec3()));
-            }
-            *number
-        })
-        .collect();
+    let (numbers, roots) = numbered(mesh);
+    let found = roots.iter();
+    let found = found.map(|&root| Body::new(mesh.vertices[root as usize].as_dvec3()));
+    let mut found: Vec<Body> = found.collect();
     for (facet, &number) in numbers.iter().enumerate() {
         found[number as usize].add(mesh.corners(facet));
     }

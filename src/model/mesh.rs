@@ -102,7 +102,7 @@ pub struct Mesh {
     centroids_from: u32,
     /// The vertices, from one to another, that are the tips of supports in the file. No facet has them.
     tips: [u32; 2],
-    /// Distance of the largest body from the lowest point, in the unit of the file.
+    /// Distance of the largest body from the lowest point, as the file has them.
     pub(super) largest_above: f64,
 }
 
@@ -219,8 +219,7 @@ impl Mesh {
         Ok(self)
     }
 
-    /// The mesh of `triangles` with its supports in a class of their own, if some of its bodies are supports. `unit_mm` is the unit of its
-    /// lengths.
+    /// The mesh of `triangles` with its supports in a class of their own, if some of its bodies are supports.
     ///
     /// # Errors
     /// As [`Self::from_triangles`].
@@ -228,9 +227,8 @@ impl Mesh {
         self,
         triangles: &[[Vec3; 3]],
         all_curved: bool,
-        unit_mm: f64,
     ) -> Result<Self, MeshError> {
-        let Some(found) = own_supports::find(&self, unit_mm) else {
+        let Some(found) = own_supports::find(&self) else {
             return Ok(self);
         };
         let key = |corner: Vec3| (corner + Vec3::ZERO).to_array().map(f32::to_bits);
@@ -283,8 +281,11 @@ impl Mesh {
         (below_mm.max(0.0) * 1e6).round() / 1e6
     }
 
-    /// Moves the surface of supports outward, as seen from inside each of its bodies.
+    /// Moves the surface of supports outward, along the plate.
     pub fn widen_supports(&mut self, by_mm: f64) {
+        if by_mm == 0.0 {
+            return;
+        }
         let mut normals: FxHashMap<u32, DVec3> = FxHashMap::default();
         for corners in self.of_class(FacetClass::Support) {
             let [a, b, c] = corners.map(|vertex| self.vertices[vertex as usize].as_dvec3());

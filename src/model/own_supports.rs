@@ -4,9 +4,8 @@
 //! together and stand on the plate. The model hangs on their tips, which end inside it, so nothing beyond a tip is a support.
 
 use glam::DVec3;
-use rustc_hash::FxHashMap;
 
-use super::bodies::{bodies, windings_at};
+use super::bodies::{numbered, windings_at};
 use super::mesh::{Mesh, sixfold_volume};
 use crate::argsort::sort_by_number;
 use crate::union_find;
@@ -67,20 +66,19 @@ struct Member {
     vertices: Vec<u32>,
 }
 
-/// Finds the supports of a mesh whose lengths are in units of `unit_mm` millimetres. `None` if it has none.
+/// Finds the supports of a mesh in millimetres. `None` if it has none.
 ///
 /// Cost: linear in facets, and in pairs of thin bodies that overlap in x.
-pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
-    let mm = 1.0 / unit_mm;
-    if mesh.largest_above < LIFTED_MM * mm {
+pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
+    if mesh.largest_above < LIFTED_MM {
         return None;
     }
-    let (number_of, members) = members(mesh, mm);
+    let (number_of, members) = members(mesh);
     let plate = members
         .iter()
         .map(|it| it.min.z)
         .fold(f64::INFINITY, f64::min);
-    let is_flat = |it: &Member| it.max.z - plate <= FLAT_MM * mm;
+    let is_flat = |it: &Member| it.max.z - plate <= FLAT_MM;
     let tall = members.iter().filter(|it| !is_flat(it));
     let largest = tall.map(|it| it.volume).fold(0.0, f64::max);
     let is_thin: Vec<bool> = members
@@ -91,21 +89,21 @@ pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
     let lowest = model
         .map(|it| members[it].min.z)
         .fold(f64::INFINITY, f64::min);
-    if lowest == f64::INFINITY || lowest < plate + LIFTED_MM * mm {
+    if lowest == f64::INFINITY || lowest < plate + LIFTED_MM {
         return None;
     }
     let rafts: Vec<&Member> = members.iter().filter(|it| is_flat(it)).collect();
     // On the plate, or on a raft.
     let stands = |it: &Member| {
         let on_raft = |raft: &&Member| {
-            it.min.z <= raft.max.z + NEAR_MM * mm
+            it.min.z <= raft.max.z + NEAR_MM
                 && it.min.truncate().cmple(raft.max.truncate()).all()
                 && it.max.truncate().cmpge(raft.min.truncate()).all()
         };
-        it.min.z <= plate + NEAR_MM * mm || rafts.iter().any(on_raft)
+        it.min.z <= plate + NEAR_MM || rafts.iter().any(on_raft)
     };
     let parts: Vec<usize> = (0..members.len()).filter(|&it| is_thin[it]).collect();
-    let groups = linked(mesh, &members, &parts, mm);
+    let groups = linked(mesh, &members, &parts);
     let mut is_standing = vec![false; members.len()];
     for &part in &parts {
         is_standing[groups[part]] |= stands(&members[part]);
@@ -116,7 +114,7 @@ pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
     for &part in &parts {
         let member = &members[part];
         if member.is_cone {
-            let ends = (0..2).filter(|&end| member.is_tip(end, mm));
+            let ends = (0..2).filter(|&end| member.is_tip(end));
             tips.extend(ends.map(|end| (part, member.ends[end])));
         } else if is_part(part) && !is_flat(member) {
             let vertices = member.vertices.iter();
@@ -127,17 +125,16 @@ pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
     let around = windings_at(mesh, &points, |facet, _| is_part(number_of[facet] as usize));
     let mut around = around.into_iter();
     tips.retain(|_| around.next().is_some_and(|it| it != 0));
-    let tips = narrow(tips, mm);
+    let tips = narrow(tips);
     let mut held = vec![0usize; members.len()];
     for &(part, _) in &tips {
         held[groups[part]] += 1;
     }
     // Those that stand and hold, feet, and those that lead from one place of the model to another.
     let is_own: Vec<bool> = (0..members.len())
-        .map(|it| match (is_part(it), is_thin[it]) {
-            (true, _) => held[groups[it]] > 0 || is_flat(&members[it]),
-            (false, true) => held[groups[it]] > 1,
-            (false, false) => false,
+        .map(|it| {
+            let held = held[groups[it]];
+            is_thin[it] && (held > 1 || is_part(it) && (held > 0 || is_flat(&members[it])))
         })
         .collect();
     let tips: Vec<DVec3> = tips
@@ -152,7 +149,7 @@ pub(super) fn find(mesh: &Mesh, unit_mm: f64) -> Option<OwnSupports> {
 }
 
 /// Middles of places where members end in the model, without those too wide for tips. Points of a place are close together.
-fn narrow(points: Vec<(usize, DVec3)>, mm: f64) -> Vec<(usize, DVec3)> {
+fn narrow(points: Vec<(usize, DVec3)>) -> Vec<(usize, DVec3)> {
     let mut places: Vec<(usize, Vec<DVec3>)> = Vec::new();
     let mut last = 0;
     for (part, at) in points {
@@ -160,7 +157,7 @@ fn narrow(points: Vec<(usize, DVec3)>, mm: f64) -> Vec<(usize, DVec3)> {
         if places.get(last).is_some_and(|it| it.0 != part) {
             last = places.len();
         }
-        let near = |it: &&mut (usize, Vec<DVec3>)| it.1[0].distance(at) <= 2.0 * TIP_MM * mm;
+        let near = |it: &&mut (usize, Vec<DVec3>)| it.1[0].distance(at) <= 2.0 * TIP_MM;
         match places[last..].iter_mut().find(near) {
             Some(place) => place.1.push(at),
             None => places.push((part, vec![at])),
@@ -168,33 +165,26 @@ fn narrow(points: Vec<(usize, DVec3)>, mm: f64) -> Vec<(usize, DVec3)> {
     }
     let middles = places.into_iter().filter_map(|(part, points)| {
         let middle = points.iter().sum::<DVec3>() / points.len() as f64;
-        let is_narrow = points.iter().all(|it| it.distance(middle) <= TIP_MM * mm);
+        let is_narrow = points.iter().all(|it| it.distance(middle) <= TIP_MM);
         is_narrow.then_some((part, middle))
     });
     middles.collect()
 }
 
 /// The body of each facet, and all bodies.
-fn members(mesh: &Mesh, mm: f64) -> (Vec<u32>, Vec<Member>) {
-    let roots = bodies(mesh.vertices.len(), &mesh.facets);
-    let mut numbers: FxHashMap<u32, u32> = FxHashMap::default();
-    let mut facets: Vec<Vec<usize>> = Vec::new();
-    let mut number_of = Vec::with_capacity(roots.len());
-    for (facet, root) in roots.into_iter().enumerate() {
-        let number = *numbers.entry(root).or_insert(facets.len() as u32);
-        if number as usize == facets.len() {
-            facets.push(Vec::new());
-        }
+fn members(mesh: &Mesh) -> (Vec<u32>, Vec<Member>) {
+    let (number_of, roots) = numbered(mesh);
+    let mut facets: Vec<Vec<usize>> = vec![Vec::new(); roots.len()];
+    for (facet, &number) in number_of.iter().enumerate() {
         facets[number as usize].push(facet);
-        number_of.push(number);
     }
-    let members = facets.iter().map(|facets| Member::new(mesh, facets, mm));
+    let members = facets.iter().map(|facets| Member::new(mesh, facets));
     let members = members.collect();
     (number_of, members)
 }
 
 impl Member {
-    fn new(mesh: &Mesh, facets: &[usize], mm: f64) -> Self {
+    fn new(mesh: &Mesh, facets: &[usize]) -> Self {
         let first = mesh.corners(facets[0])[0];
         let (mut min, mut max) = (first, first);
         let (mut volume, mut area) = (0.0, 0.0);
@@ -213,12 +203,12 @@ impl Member {
             ends: [first; 2],
             radii: [0.0; 2],
             volume,
-            is_thin: volume > 0.0 && 4.0 * volume <= THICKEST_MM * mm * area,
+            is_thin: volume > 0.0 && 4.0 * volume <= THICKEST_MM * area,
             is_cone: false,
             vertices: Vec::new(),
         };
         // The model itself needs no more.
-        if member.is_thin || max.z - min.z <= FLAT_MM * mm {
+        if member.is_thin || max.z - min.z <= FLAT_MM {
             let corners = facets.iter().flat_map(|&it| mesh.facets[it]);
             member.vertices.extend(corners);
             member.vertices.sort_unstable();
@@ -241,9 +231,9 @@ impl Member {
     }
 
     /// Returns true if an end is as narrow as a tip.
-    fn is_tip(&self, end: usize, mm: f64) -> bool {
+    fn is_tip(&self, end: usize) -> bool {
         let radius = self.radii[end];
-        radius <= NARROW_MM * mm || radius <= TIP_MM * mm && self.tapers(end)
+        radius <= NARROW_MM || radius <= TIP_MM && self.tapers(end)
     }
 
     fn tapers(&self, end: usize) -> bool {
@@ -251,9 +241,9 @@ impl Member {
     }
 
     /// Returns true if a part of the length is at an end that tapers.
-    fn is_at_tip(&self, part: f64, mm: f64) -> bool {
+    fn is_at_tip(&self, part: f64) -> bool {
         let end = usize::from(part > 0.5);
-        (part - 0.5).abs() > 0.2 && self.is_tip(end, mm) && self.tapers(end)
+        (part - 0.5).abs() > 0.2 && self.is_tip(end) && self.tapers(end)
     }
 
     /// The point of the axis at a part of the length, and the radius there.
@@ -310,18 +300,18 @@ fn cone(points: &[DVec3]) -> ([DVec3; 2], [f64; 2]) {
 }
 
 /// The group of each member: thin ones that overlap, though not at a tip, are in one.
-fn linked(mesh: &Mesh, members: &[Member], parts: &[usize], mm: f64) -> Vec<usize> {
+fn linked(mesh: &Mesh, members: &[Member], parts: &[usize]) -> Vec<usize> {
     let mut parents: Vec<u32> = (0..members.len() as u32).collect();
     let mut order = parts.to_vec();
     sort_by_number(&mut order, |&it| members[it].min.x);
-    let gap = DVec3::splat(NEAR_MM * mm);
+    let gap = DVec3::splat(NEAR_MM);
     for (place, &part) in order.iter().enumerate() {
         let a = &members[part];
         let near = order[place + 1..].iter();
         for &other in near.take_while(|&&it| members[it].min.x <= a.max.x + gap.x) {
             let b = &members[other];
             let is_beside = (a.min - gap).cmpgt(b.max).any() || (b.min - gap).cmpgt(a.max).any();
-            if !is_beside && are_linked(mesh, a, b, mm) {
+            if !is_beside && are_linked(mesh, a, b) {
                 union_find::unite(&mut parents, part as u32, other as u32);
             }
         }
@@ -332,10 +322,13 @@ fn linked(mesh: &Mesh, members: &[Member], parts: &[usize], mm: f64) -> Vec<usiz
 }
 
 /// Returns true if two members overlap elsewhere than at a tip.
-fn are_linked(mesh: &Mesh, a: &Member, b: &Member, mm: f64) -> bool {
+fn are_linked(mesh: &Mesh, a: &Member, b: &Member) -> bool {
     if a.is_cone && b.is_cone {
         let (of_a, of_b) = closest(a.ends, b.ends);
-        return meet(a, of_a, b, of_b, mm);
+        let ((at_a, radius_a), (at_b, radius_b)) = (a.at(of_a), b.at(of_b));
+        return at_a.distance(at_b) <= radius_a + radius_b + NEAR_MM
+            && !a.is_at_tip(of_a)
+            && !b.is_at_tip(of_b);
     }
     // A body that is more than a cone by its vertices, though not by those of its tips, at its top.
     let (body, other) = if a.is_cone { (b, a) } else { (a, b) };
@@ -344,18 +337,10 @@ fn are_linked(mesh: &Mesh, a: &Member, b: &Member, mm: f64) -> bool {
     vertices.any(|at| {
         let (_, of_other) = closest([at; 2], other.ends);
         let (axis, radius) = other.at(of_other);
-        at.z <= body.max.z - LIFTED_MM * mm
-            && axis.distance(at) <= radius + NEAR_MM * mm
-            && !(other.is_cone && other.is_at_tip(of_other, mm))
+        at.z <= body.max.z - LIFTED_MM
+            && axis.distance(at) <= radius + NEAR_MM
+            && !(other.is_cone && other.is_at_tip(of_other))
     })
-}
-
-/// Returns true if two cones meet at these parts of their lengths, and not at a tip.
-fn meet(a: &Member, of_a: f64, b: &Member, of_b: f64, mm: f64) -> bool {
-    let ((at_a, a_mm), (at_b, b_mm)) = (a.at(of_a), b.at(of_b));
-    at_a.distance(at_b) <= a_mm + b_mm + NEAR_MM * mm
-        && !a.is_at_tip(of_a, mm)
-        && !b.is_at_tip(of_b, mm)
 }
 
 /// Places of two line segments that are closest to each other, as parts of their lengths.

@@ -35,7 +35,7 @@ fn exported(triangles: &solids::Triangles, supporting: &Supporting) -> (solids::
 /// Facets of supports and of the model among those that a reader takes for supports.
 fn recognised(triangles: &solids::Triangles, own: usize) -> [usize; 2] {
     let mesh = Mesh::from_triangles(triangles).unwrap();
-    let mesh = mesh.with_own_supports(triangles, false, 1.0).unwrap();
+    let mesh = mesh.with_own_supports(triangles, false).unwrap();
     let key = |corners: &[Vec3; 3]| corners.map(|it| it.to_array().map(f32::to_bits));
     let theirs = triangles_of(&mesh, mesh.of_class(FacetClass::Support));
     let theirs: std::collections::HashSet<_> = theirs.iter().map(key).collect();
