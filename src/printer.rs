@@ -69,7 +69,13 @@ pub struct Printer {
     /// Growth of prints beyond their masks, whatever the resin.
     #[serde(default)]
     pub growth: Growth,
+    /// Pull of its film per area at a disc of 20 mm, in kPa, for supports whose sizes state none.
+    #[serde(default)]
+    pub film_kpa: Option<f64>,
 }
+
+/// Largest pull of a film: that of a vacuum.
+const MOST_FILM_KPA: f64 = 101.0;
 
 /// Ability of a printer to print layers of several thicknesses.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Default, Serialize, Deserialize)]
@@ -146,6 +152,11 @@ impl Printer {
                     .is_none_or(|version| (516..=518).contains(&version)),
             ),
             ("growth", self.growth.check().is_ok()),
+            (
+                "film_kpa",
+                self.film_kpa
+                    .is_none_or(|film_kpa| (0.0..=MOST_FILM_KPA).contains(&film_kpa)),
+            ),
             (
                 "reads",
                 self.reads.iter().all(|extension| is_extension(extension)),

@@ -338,8 +338,8 @@ impl Warning {
             ),
             Self::Undrained { basins } => write!(
                 f,
-                "{} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model",
-                counted(*basins, "part")
+                "{} full, since no hole leads out on a level or downward; place holes there, or turn the model",
+                either(*basins, "part of the void stays", "parts of the void stay")
             ),
             Self::ClosedCavities {
                 cavities,
@@ -361,7 +361,7 @@ impl Warning {
             ),
             Self::Unsupported { points } => write!(
                 f,
-                "{} without a support, since none gets there; turn the model, or choose lighter supports",
+                "{} without a support, since the model is in the way on all sides; turn the model",
                 counted(*points, "point")
             ),
             Self::OwnSupports { tips, replaced } => write!(

@@ -103,9 +103,16 @@ impl Options {
             (Some(_), None) | (None, Some(_)) => return Err(OptionsError::PixelsWithoutPitch),
         };
         check_prepared(self.hollow.as_ref(), self.supports.as_ref())?;
+        let mut supports = self.supports.clone();
+        if let (Some(supports), Some(film_kpa)) =
+            (&mut supports, printer.and_then(|it| it.film_kpa))
+        {
+            let profile = supports.profile.insert(supports.profile());
+            profile.film_kpa.get_or_insert(film_kpa);
+        }
         Ok(Sampling {
             hollow: self.hollow.clone(),
-            supports: self.supports.clone(),
+            supports,
             wider_mm: 0.0,
             pose: Pose {
                 rotation: self.rotation,

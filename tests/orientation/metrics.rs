@@ -174,7 +174,7 @@ fn estimates_of_supports_order_directions_as_what_is_built_does() {
         supports: Some(Supporting {
             // Estimates leave out contacts for the pull of the film alone.
             profile: Some(SupportProfile {
-                film_kpa: 0.0,
+                film_kpa: Some(0.0),
                 ..SupportProfile::default()
             }),
             ..Supporting::default()

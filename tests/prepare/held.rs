@@ -234,25 +234,32 @@ fn held_at(triangles: &solids::Triangles, at_mm: &[[f64; 2]]) -> Supported {
         .unwrap()
 }
 
-/// The largest load of springs in a plane that hold a force at the origin: equal ones, each of which bends by a radius of a millimetre.
+/// The largest load of springs in a plane that hold a force at the origin: equal ones, each of which bends by a quarter of a millimetre.
 fn naive_load(places: &[[f64; 2]], force_n: f64) -> f64 {
-    // Relaxation: lift and tilt until forces and moments balance.
-    let (mut lift, mut tilt) = (force_n / places.len() as f64, [0.0, 0.0]);
-    for _ in 0..200_000 {
-        let load = |&[x, y]: &[f64; 2]| lift + tilt[0] * x + tilt[1] * y;
-        let loads: Vec<f64> = places.iter().map(load).collect();
-        lift += 0.1 * (force_n - loads.iter().sum::<f64>()) / places.len() as f64;
-        for axis in 0..2 {
-            let moment: f64 = places
-                .iter()
-                .zip(&loads)
-                .map(|(it, load)| it[axis] * load)
-                .sum();
-            let bent = tilt[axis] * places.len() as f64;
-            tilt[axis] -= 1e-4 * (moment + bent);
+    // Lift, and tilt about x and y, from the balance of forces and moments: Gauss's elimination.
+    let mut rows = [[0.0; 4]; 3];
+    rows[0][3] = force_n;
+    for &[x, y] in places {
+        let arms = [1.0, x, y];
+        for (row, arm) in arms.into_iter().enumerate() {
+            for (column, other) in arms.into_iter().enumerate() {
+                rows[row][column] += arm * other;
+            }
+        }
+        rows[1][1] += 0.0625;
+        rows[2][2] += 0.0625;
+    }
+    for pivot in 0..3 {
+        let by = rows[pivot];
+        for row in (0..3).filter(|&row| row != pivot) {
+            let part = rows[row][pivot] / by[pivot];
+            for column in 0..4 {
+                rows[row][column] -= part * by[column];
+            }
         }
     }
-    let load = |&[x, y]: &[f64; 2]| lift + tilt[0] * x + tilt[1] * y;
+    let [lift, x_tilt, y_tilt] = [0, 1, 2].map(|it: usize| rows[it][3] / rows[it][it]);
+    let load = |&[x, y]: &[f64; 2]| lift + x_tilt * x + y_tilt * y;
     places.iter().map(load).fold(0.0, f64::max)
 }
 
@@ -399,4 +406,36 @@ fn pieces_that_float_are_named_after_every_preparation() {
         plan(&mut slicer, &options);
         assert!(slicer.floating(&mut quiet).unwrap().is_empty());
     }
+}
+
+#[test]
+fn a_cup_pulls_like_a_solid_until_it_is_vented() {
+    let block = |[x, y, z]: [f32; 3], [dx, dy, dz]: [f32; 3]| {
+        solids::moved(&solids::cuboid(Vec3::new(dx, dy, dz)), Vec3::new(x, y, z))
+    };
+    // A square frame around a square hole in the middle.
+    let frame = |side: f32, hole: f32, z: f32, height: f32| {
+        let rim = (side - hole) / 2.0;
+        let (near, far) = (-side / 2.0, hole / 2.0);
+        let bars = [
+            block([near, near, z], [side, rim, height]),
+            block([near, far, z], [side, rim, height]),
+            block([near, near, z], [rim, side, height]),
+            block([far, near, z], [rim, side, height]),
+        ];
+        bars.concat()
+    };
+    let places = [[-4.6, -4.6], [4.6, -4.6], [-4.6, 4.6], [4.6, 4.6]];
+    let assert_pull = |floor: Vec<[Vec3; 3]>, force_n: f64| {
+        let walls = [frame(20.0, 9.0, 2.0, 2.0), frame(20.0, 16.0, 4.0, 6.0)];
+        let supported = held_at(&[floor, walls.concat()].concat(), &places);
+        let all = supported.points.iter().map(|it| [it.at_mm[0], it.at_mm[1]]);
+        let wanted_n = naive_load(&all.collect::<Vec<_>>(), force_n);
+        assert_near(supported.load.unwrap().newtons, wanted_n, 0.05 * wanted_n);
+    };
+    // The hole in the lower walls is 9 mm wide: the film pulls at it as well while the floor closes it.
+    let closed = block([-5.0, -5.0, 0.0], [10.0, 10.0, 2.0]);
+    assert_pull(closed, pull_n(400.0, 80.0));
+    let vented = frame(10.0, 3.0, 0.0, 2.0);
+    assert_pull(vented, pull_n(400.0 - 81.0, 80.0 + 36.0));
 }

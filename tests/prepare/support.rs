@@ -130,7 +130,7 @@ fn contacts_keep_the_load_rule() {
     let ball = on_plate(&solids::sphere(12.0, 6));
     // Steeper ones hold loads alone.
     let without_film = SupportProfile {
-        film_kpa: 0.0,
+        film_kpa: Some(0.0),
         ..profile
     };
     let supports = supports_of(&ball, &of(without_film));
@@ -407,7 +407,7 @@ fn contacts_keep_off_what_weighs_more_than_a_half() {
         supported(Supporting {
             protect,
             profile: Some(SupportProfile {
-                film_kpa: 0.0,
+                film_kpa: Some(0.0),
                 ..SupportProfile::default()
             }),
             ..Supporting::default()

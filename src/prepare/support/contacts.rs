@@ -42,6 +42,9 @@ const ON_PLATE_MM: f64 = 0.02;
 /// Distance at which one tip holds two lowest points, in contact diameters.
 const SAME: f64 = 0.5;
 
+/// Height of the layer in which a surface begins, and in which contacts must hold it, in micrometres.
+const FIRST_LAYER_UM: f64 = 50.0;
+
 /// Radius that a contact holds around a lowest point of rays, in spacings: half of that on a level surface.
 const LONE: f64 = 0.5;
 
@@ -102,11 +105,17 @@ pub(super) fn place(
     }
     let mut places = overhangs(mesh, &rays, profile);
     sort_by_number(&mut places, |place| micrometres(place.at.z));
-    // Edges come after the rest. Protected facets come last, and so show what stays without support.
-    for (protected, is_edge) in [(false, false), (false, true), (true, false), (true, true)] {
-        let these =
-            |place: &&Place| place.is_edge == is_edge && is_protected(place.facet) == protected;
-        for place in places.iter().filter(these) {
+    // Within the first layer, edges come after the rest: what begins later cannot hold them. Protected facets come last, and so show what
+    // stays without support.
+    sort_by_number(&mut places, |place| f64::from(u8::from(place.is_edge)));
+    sort_by_number(&mut places, |place| {
+        (micrometres(place.at.z) / FIRST_LAYER_UM).floor()
+    });
+    for protected in [false, true] {
+        for place in places
+            .iter()
+            .filter(|it| is_protected(it.facet) == protected)
+        {
             if held.away_mm(place.stretch) >= profile.reach_mm(place.slope) {
                 add(&mut held, &mut points, place.at);
                 held.insert(&[place.stretch]);

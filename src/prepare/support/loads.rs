@@ -3,31 +3,36 @@
 //! A piece is taken for rigid and its contacts for springs as stiff as they are large, so loads are linear in x and y, and their sum
 //! and their moment are those of the pull. What stands on the plate holds as well.
 
+use std::collections::BTreeMap;
+
 use glam::{DVec2, DVec3};
 
 use super::SupportProfile;
 use super::contacts::Contact;
+use super::pieces::Pieces;
 use super::rays::Rays;
-use crate::union_find;
-use crate::ways::AROUND;
 
 /// Radius of the disc at which the pressure of a film is measured.
 const DISC_MM: f64 = 10.0;
 
-/// Least distance of a contact that is added from all others, in spacings: where they are as close, tips become wider instead.
-const BESIDE: f64 = 0.75;
+/// Least distances of a contact that is added from all others, in spacings: where they are as close, tips become wider, and then contacts
+/// closer.
+const BESIDE: [f64; 2] = [0.75, 0.4];
 
 /// The largest diameter of a tip, in those of the profile.
 const LARGEST: f64 = 2.0;
 
-/// Distance from a contact within which a moment is held by the bending of its pillar.
-const BENDING_MM: f64 = 1.0;
+/// Distance from a contact within which a moment is held by the bending of its pillar: half the radius of one of a millimetre.
+const BENDING_MM: f64 = 0.25;
 
 /// Least height of a slice.
-const SLICE_MM: f64 = 0.5;
+const SLICE_MM: f64 = 0.1;
 
 /// The most slices.
-const MOST_SLICES: f64 = 64.0;
+const MOST_SLICES: f64 = 1000.0;
+
+/// The most rounds in which tips become wider: each takes more of the load from the others.
+const ROUNDS: usize = 8;
 
 /// Pull of the film at a region of a layer. For the same area it grows with the root of area over perimeter: a disc of 314 mm² pulls with 6.16 N
 /// where a triangle pulls with 5.45 (Pan et al., 2017).
@@ -73,6 +78,14 @@ impl Springs {
         }
     }
 
+    fn join(&mut self, other: &Self) {
+        self.stiffness += other.stiffness;
+        self.first += other.first;
+        for (sum, its) in self.second.iter_mut().zip(other.second) {
+            *sum += its;
+        }
+    }
+
     /// Load per stiffness at each place, when a force pulls at one.
     fn loads(&self, force_n: f64, at: DVec2) -> impl Fn(DVec2) -> f64 + use<> {
         let middle = self.first / self.stiffness;
@@ -92,26 +105,36 @@ impl Springs {
     }
 }
 
-/// Part of a slice that is one piece with what is below it.
-#[derive(Default, Clone, Copy)]
-struct Region {
-    rays: f64,
-    /// Dark rays beside those of the region; those at corners count by the root of a half.
-    edges: f64,
-    sum: DVec2,
+/// The pull at a piece in a slice, and what holds it.
+struct Pull {
+    root: u32,
+    z_mm: f64,
+    force_n: f64,
+    middle: DVec2,
+    /// What stands on the plate.
+    standing: Springs,
+    contacts: Vec<usize>,
 }
 
-/// Visits a piece in a slice, given the union-find of all stretches and the contacts.
-type Visit<'a> = dyn FnMut(&mut [u32], &Slice<'_>, &mut Vec<Contact>) -> Option<usize> + 'a;
+impl Pull {
+    /// Load by the area of a tip at each place, in N/mm².
+    fn loads(&self, contacts: &[Contact]) -> impl Fn(DVec2) -> f64 + use<> {
+        let mut springs = self.standing;
+        for &contact in &self.contacts {
+            let it = &contacts[contact];
+            springs.add(it.at.truncate(), tip_mm2(it.diameter_mm));
+        }
+        springs.loads(self.force_n, self.middle)
+    }
+}
 
-/// The parts of a slice, each with the root of its piece.
-type Regions = Vec<(u32, Region)>;
+/// Visits a pull, given the pieces and the contacts; returns the stretch of a contact that it adds.
+type Visit<'a> = dyn FnMut(&mut Pieces<'_>, Pull, &mut Vec<Contact>) -> Option<usize> + 'a;
 
 /// Slices of the print from the lowest up.
 pub(super) struct Loads<'a> {
     rays: &'a Rays<'a>,
     profile: &'a SupportProfile,
-    order: Vec<usize>,
     /// Stretches that stand on the plate.
     standing: Vec<usize>,
 }
@@ -119,15 +142,14 @@ pub(super) struct Loads<'a> {
 impl<'a> Loads<'a> {
     pub fn new(rays: &'a Rays<'a>, profile: &'a SupportProfile, standing: Vec<usize>) -> Self {
         Self {
-            order: rays.ascending(),
             rays,
             profile,
             standing,
         }
     }
 
-    /// Adds contacts where those below a slice bear too much, by `contact`, the farthest from all others first; then makes tips larger.
-    /// Contacts before `fixed` keep their size. Returns the largest load.
+    /// Adds contacts where those below a slice bear too much, by `contact`, the farthest from all others first; then makes tips wider, and then
+    /// adds contacts closer to the others. The first `fixed` keep their size. Returns the largest load.
     pub fn relieve(
         &self,
         contacts: &mut Vec<Contact>,
@@ -135,51 +157,83 @@ impl<'a> Loads<'a> {
         candidates: &[Candidate],
         contact: &dyn Fn(DVec3) -> Option<Contact>,
     ) -> Option<Load> {
-        if self.profile.film_kpa == 0.0 {
+        if self.profile.film_kpa() == 0.0 {
             return None;
         }
+        let mut loads = Vec::new();
+        for beside in BESIDE {
+            let least_mm = beside * self.profile.spacing_mm;
+            self.add(contacts, candidates, contact, least_mm);
+            let mut pulls = Vec::new();
+            self.sweep(contacts, &mut |_, pull, _| {
+                pulls.push(pull);
+                None
+            });
+            loads = self.widen(&pulls, contacts, fixed);
+            let is_most = |it: &Load| it.newtons <= self.most_n(contacts[it.contact].diameter_mm);
+            if loads.iter().all(is_most) {
+                break;
+            }
+        }
+        let all = loads.into_iter();
+        all.reduce(|a, b| if b.newtons > a.newtons { b } else { a })
+    }
+
+    /// Adds contacts where those below a slice bear too much, each at least `least_mm` from all others.
+    fn add(
+        &self,
+        contacts: &mut Vec<Contact>,
+        candidates: &[Candidate],
+        contact: &dyn Fn(DVec3) -> Option<Contact>,
+        least_mm: f64,
+    ) {
         let away_mm = |at: DVec3, contacts: &[Contact]| {
             let each = contacts.iter().map(|it| it.at.distance(at));
             each.fold(f64::INFINITY, f64::min)
         };
-        let mut gaps_mm: Vec<f64> = candidates
+        // Those that are far enough from all contacts, each with its distance from the nearest one.
+        let mut open: Vec<(f64, &Candidate)> = candidates
             .iter()
-            .map(|it| away_mm(it.at, contacts))
+            .map(|it| (away_mm(it.at, contacts), it))
+            .filter(|it| it.0 >= least_mm)
             .collect();
-        let least_mm = BESIDE * self.profile.spacing_mm;
-        let mut regions = Vec::new();
-        self.sweep(&mut regions, contacts, &mut |parent, slice, contacts| {
-            if !slice.is_overloaded {
+        self.sweep(contacts, &mut |pieces, pull, contacts| {
+            let load = pull.loads(contacts);
+            let bears = |&it: &usize| load(contacts[it].at.truncate()) <= self.profile.tip_mpa;
+            if pull.contacts.iter().all(bears) {
                 return None;
             }
             // The candidate of the overloaded piece that is farthest from all contacts.
-            let mut best: Option<(f64, usize)> = None;
-            for (place, (candidate, &gap_mm)) in candidates.iter().zip(&gaps_mm).enumerate() {
-                let is_best = gap_mm >= least_mm && best.is_none_or(|best| gap_mm > best.0);
-                if is_best
-                    && candidate.at.z < slice.z_mm
-                    && union_find::find(parent, candidate.stretch as u32) == slice.root
+            let mut best: Option<(f64, &Candidate)> = None;
+            for &(gap_mm, candidate) in &open {
+                if best.is_none_or(|best| gap_mm > best.0)
+                    && candidate.at.z < pull.z_mm
+                    && pieces.root(candidate.stretch) == pull.root
                 {
-                    best = Some((gap_mm, place));
+                    best = Some((gap_mm, candidate));
                 }
             }
-            let (_, place) = best?;
-            gaps_mm[place] = 0.0;
-            let added = contact(candidates[place].at)?;
-            for (gap_mm, candidate) in gaps_mm.iter_mut().zip(candidates) {
-                *gap_mm = gap_mm.min(candidate.at.distance(added.at));
-            }
+            let (_, candidate) = best?;
+            let added = contact(candidate.at);
+            let at = added.map_or(candidate.at, |it| it.at);
+            open.retain_mut(|(gap_mm, it)| {
+                *gap_mm = gap_mm.min(it.at.distance(at));
+                *gap_mm >= least_mm
+            });
             contacts.push(Contact {
                 is_for_load: true,
-                ..added
+                ..added?
             });
-            Some(candidates[place].stretch)
+            Some(candidate.stretch)
         });
-        let mut largest = Vec::new();
-        for _ in 0..3 {
-            largest = self.largest(&mut regions, contacts);
+    }
+
+    /// Makes tips wider that bear too much, except the first `fixed`. Returns the largest load of each contact.
+    fn widen(&self, pulls: &[Pull], contacts: &mut [Contact], fixed: usize) -> Vec<Load> {
+        for _ in 0..ROUNDS {
             let mut is_wider = false;
-            for (contact, load) in contacts.iter_mut().zip(&largest).skip(fixed) {
+            let loads = largest_loads(pulls, contacts);
+            for (contact, load) in contacts.iter_mut().zip(loads).skip(fixed) {
                 let most_n = self.most_n(contact.diameter_mm);
                 if load.newtons > most_n {
                     let wider = (load.newtons / most_n).sqrt();
@@ -194,8 +248,7 @@ impl<'a> Loads<'a> {
                 break;
             }
         }
-        let all = largest.into_iter();
-        all.reduce(|a, b| if b.newtons > a.newtons { b } else { a })
+        largest_loads(pulls, contacts)
     }
 
     /// The largest force that a tip bears.
@@ -203,148 +256,102 @@ impl<'a> Loads<'a> {
         tip_mm2(diameter_mm) * self.profile.tip_mpa
     }
 
-    /// The largest load of each contact.
-    fn largest(&self, regions: &mut Vec<Regions>, contacts: &mut Vec<Contact>) -> Vec<Load> {
-        let mut largest: Vec<Load> = (0..contacts.len())
-            .map(|contact| Load {
-                contact,
-                newtons: 0.0,
-                z_mm: 0.0,
-            })
-            .collect();
-        self.sweep(regions, contacts, &mut |_, slice, contacts| {
-            for &contact in slice.contacts {
-                let it = &contacts[contact];
-                let newtons = (slice.load)(it.at.truncate()) * tip_mm2(it.diameter_mm);
-                if newtons > largest[contact].newtons {
-                    largest[contact] = Load {
-                        contact,
-                        newtons,
-                        z_mm: slice.z_mm,
-                    };
-                }
-            }
-            None
-        });
-        largest
-    }
-
-    /// Calls `each` for every piece of every slice that contacts hold, again while it returns the stretch of a contact that it added. The
-    /// regions of slices are found once.
-    fn sweep(&self, regions: &mut Vec<Regions>, contacts: &mut Vec<Contact>, each: &mut Visit<'_>) {
+    /// Calls `each` for every piece of every slice that contacts hold, again while it returns the stretch of a contact that it added.
+    fn sweep(&self, contacts: &mut Vec<Contact>, each: &mut Visit<'_>) {
         let rays = self.rays;
         let pitch_mm = rays.ldi.grid.pitch_mm;
         let top_mm = rays.stretches.iter().map(|it| it.to_mm).fold(0.0, f32::max);
         let step_mm = SLICE_MM.max(f64::from(top_mm) / MOST_SLICES);
-        let mut parent: Vec<u32> = (0..rays.stretches.len() as u32).collect();
+        let mut pieces = Pieces::new(rays);
+        let dark = rays.dark(-self.profile.lift_mm as f32);
+        let mut dark = Pieces::new(&dark);
         let mut stretches: Vec<Option<usize>> =
             contacts.iter().map(|it| rays.stretch_at(it.at)).collect();
-        let mut next = self.order.iter().copied().peekable();
+        let of_ray = |&it: &usize| {
+            let mut springs = Springs::default();
+            springs.add(rays.at(it).truncate(), pitch_mm * pitch_mm);
+            (it as u32, springs)
+        };
+        let mut standing: Vec<(u32, Springs)> = self.standing.iter().map(of_ray).collect();
         for slice in 1..=(f64::from(top_mm) / step_mm) as usize {
             let z_mm = slice as f64 * step_mm;
-            while let Some(here) = next.next_if(|&it| f64::from(rays.stretches[it].from_mm) < z_mm)
-            {
-                let ray = rays.stretches[here].ray;
-                for there in AROUND.iter().flat_map(|&step| rays.near(ray, step)) {
-                    let begins = rays.stretches[there].from_mm <= rays.stretches[here].from_mm;
-                    if begins && rays.overlap(here, there) {
-                        union_find::unite(&mut parent, here as u32, there as u32);
-                    }
+            pieces.rise(z_mm);
+            dark.rise(z_mm);
+            // Resin that the film closes in cannot follow: a cup pulls like a solid.
+            let cups = pieces.enclosed(&mut dark);
+            // Pieces that stand on the plate, by their roots.
+            let mut by_root: BTreeMap<u32, Springs> = BTreeMap::new();
+            for (stretch, springs) in &standing {
+                let root = pieces.root(*stretch as usize);
+                by_root.entry(root).or_default().join(springs);
+            }
+            standing = by_root
+                .iter()
+                .map(|(&root, &springs)| (root, springs))
+                .collect();
+            let root_of = |pieces: &mut Pieces<'_>, contact: &Contact, stretch: Option<usize>| {
+                let below = stretch.filter(|_| contact.at.z < z_mm);
+                below.map(|it| pieces.root(it))
+            };
+            let mut held_by: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
+            for (place, (contact, &stretch)) in contacts.iter().zip(&stretches).enumerate() {
+                if let Some(root) = root_of(&mut pieces, contact, stretch) {
+                    held_by.entry(root).or_default().push(place);
                 }
             }
-            if regions.len() < slice {
-                regions.push(self.regions(&mut parent, z_mm as f32));
-            }
-            for &(root, region) in &regions[slice - 1] {
-                let area_mm2 = region.rays * pitch_mm * pitch_mm;
-                // Cauchy and Crofton's formula for four directions.
-                let perimeter_mm = region.edges * pitch_mm * std::f64::consts::FRAC_PI_8;
-                let force_n = peel_n(area_mm2, perimeter_mm, self.profile.film_kpa);
-                let middle = region.sum / region.rays;
+            for (root, mut region) in pieces.regions() {
+                for (_, cup) in cups.iter().filter(|it| it.0 == root) {
+                    region.fill(cup);
+                }
+                let Some(held_by) = held_by.get_mut(&root) else {
+                    continue;
+                };
+                let (area_mm2, perimeter_mm) =
+                    (region.area_mm2(pitch_mm), region.perimeter_mm(pitch_mm));
                 loop {
-                    let mut springs = Springs::default();
-                    let mut held_by = Vec::new();
-                    for (contact, stretch) in stretches.iter().enumerate() {
-                        let Some(stretch) = *stretch else { continue };
-                        let it = &contacts[contact];
-                        if it.at.z < z_mm && union_find::find(&mut parent, stretch as u32) == root {
-                            springs.add(it.at.truncate(), tip_mm2(it.diameter_mm));
-                            held_by.push(contact);
-                        }
-                    }
-                    if held_by.is_empty() {
-                        break;
-                    }
-                    for &stretch in &self.standing {
-                        if union_find::find(&mut parent, stretch as u32) == root {
-                            springs.add(rays.at(stretch).truncate(), pitch_mm * pitch_mm);
-                        }
-                    }
-                    let load = springs.loads(force_n, middle);
-                    let stress = held_by.iter().map(|&it| load(contacts[it].at.truncate()));
-                    let slice = Slice {
+                    let pull = Pull {
                         root,
                         z_mm,
-                        contacts: &held_by,
-                        is_overloaded: stress.fold(0.0, f64::max) > self.profile.tip_mpa,
-                        load: &load,
+                        force_n: peel_n(area_mm2, perimeter_mm, self.profile.film_kpa()),
+                        middle: region.middle(),
+                        standing: by_root.get(&root).copied().unwrap_or_default(),
+                        contacts: held_by.clone(),
                     };
-                    match each(&mut parent, &slice, contacts) {
-                        Some(stretch) => stretches.push(Some(stretch)),
-                        None => break,
-                    }
+                    let Some(added) = each(&mut pieces, pull, contacts) else {
+                        break;
+                    };
+                    held_by.push(stretches.len());
+                    stretches.push(Some(added));
                 }
             }
         }
-    }
-
-    /// The parts of a slice by the piece that they belong to.
-    fn regions(&self, parent: &mut [u32], z_mm: f32) -> Regions {
-        let rays = self.rays;
-        let is_lit = |ray: Option<usize>| {
-            let mut those = ray.map_or(0..0, |ray| rays.of_ray(ray));
-            those.any(|it| rays.stretches[it].from_mm < z_mm && z_mm < rays.stretches[it].to_mm)
-        };
-        let mut regions = Regions::new();
-        let mut last = 0;
-        for (stretch, it) in rays.stretches.iter().enumerate() {
-            if !(it.from_mm < z_mm && z_mm < it.to_mm) {
-                continue;
-            }
-            let root = union_find::find(parent, stretch as u32);
-            // Most rays are in the same piece as the one before.
-            if regions.get(last).is_none_or(|it| it.0 != root) {
-                last = regions
-                    .iter()
-                    .position(|it| it.0 == root)
-                    .unwrap_or_else(|| {
-                        regions.push((root, Region::default()));
-                        regions.len() - 1
-                    });
-            }
-            let region = &mut regions[last].1;
-            let [sides, corners] = [&AROUND[..4], &AROUND[4..]].map(|steps| {
-                let dark = steps
-                    .iter()
-                    .filter(|&&step| !is_lit(rays.beside(it.ray, step)));
-                dark.count() as f64
-            });
-            region.rays += 1.0;
-            region.edges += sides + corners * std::f64::consts::FRAC_1_SQRT_2;
-            region.sum += rays.at(stretch).truncate();
-        }
-        regions
     }
 }
 
-/// A piece in a slice, and what holds it.
-struct Slice<'a> {
-    root: u32,
-    z_mm: f64,
-    contacts: &'a [usize],
-    is_overloaded: bool,
-    /// Load by the area of a tip at a place, in N/mm².
-    load: &'a dyn Fn(DVec2) -> f64,
+/// The largest load of each contact.
+fn largest_loads(pulls: &[Pull], contacts: &[Contact]) -> Vec<Load> {
+    let mut largest: Vec<Load> = (0..contacts.len())
+        .map(|contact| Load {
+            contact,
+            newtons: 0.0,
+            z_mm: 0.0,
+        })
+        .collect();
+    for pull in pulls {
+        let load = pull.loads(contacts);
+        for &contact in &pull.contacts {
+            let it = &contacts[contact];
+            let newtons = load(it.at.truncate()) * tip_mm2(it.diameter_mm);
+            if newtons > largest[contact].newtons {
+                largest[contact] = Load {
+                    contact,
+                    newtons,
+                    z_mm: pull.z_mm,
+                };
+            }
+        }
+    }
+    largest
 }
 
 fn tip_mm2(diameter_mm: f64) -> f64 {

@@ -8,6 +8,7 @@ mod contacts;
 mod held;
 mod islands;
 mod loads;
+mod pieces;
 mod rays;
 mod shapes;
 mod trees;
@@ -147,8 +148,9 @@ pub struct SupportProfile {
     pub raft_slope: f64,
     /// Distance between the bars of the raft, between which resin leaves it; 0 for a closed raft.
     pub raft_hole_mm: f64,
-    /// Pull of the film per area at a disc of 20 mm, in kPa; 0 if supports need not bear it.
-    pub film_kpa: f64,
+    /// Pull of the film per area at a disc of 20 mm, in kPa: the printer's, or else 15, if absent; 0 if supports need not bear it.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub film_kpa: Option<f64>,
     /// Greatest stress of a tip where it touches the model, in N/mm².
     pub tip_mpa: f64,
 }
@@ -182,7 +184,7 @@ impl SupportStrength {
             raft_margin_mm: 2.0,
             raft_slope: 1.0,
             raft_hole_mm: 4.0,
-            film_kpa: 15.0,
+            film_kpa: None,
             // A tip of 0.4 mm bears 0.25 N, a fifth of what breaks it.
             tip_mpa: 2.0,
         };
@@ -210,6 +212,9 @@ impl SupportStrength {
     }
 }
 
+/// Pull of the film of a printer that states none: between the 12 and 18 kPa of common films.
+const FILM_KPA: f64 = 15.0;
+
 /// A size by its name in the options, and its least value.
 type LeastSize = (&'static str, fn(&SupportProfile) -> f64, f64);
 
@@ -231,7 +236,11 @@ impl SupportProfile {
         ),
         ("supports.profile.tip_mm", |it| it.tip_mm, 0.5),
         ("supports.profile.pillar_mm", |it| it.pillar_mm, 0.3),
-        ("supports.profile.clearance_mm", |it| it.clearance_mm, 0.1),
+        (
+            "supports.profile.clearance_mm",
+            |it| it.clearance_mm,
+            LEAST_CLEARANCE_MM,
+        ),
         ("supports.profile.branch_mm", |it| it.branch_mm, 0.0),
         ("supports.profile.brace_mm", |it| it.brace_mm, 2.0),
         ("supports.profile.foot_mm", |it| it.foot_mm, 0.3),
@@ -252,7 +261,7 @@ impl SupportProfile {
         ),
         ("supports.profile.raft_slope", |it| it.raft_slope, 0.3),
         ("supports.profile.raft_hole_mm", |it| it.raft_hole_mm, 0.0),
-        ("supports.profile.film_kpa", |it| it.film_kpa, 0.0),
+        ("supports.profile.film_kpa", Self::film_kpa, 0.0),
         ("supports.profile.tip_mpa", |it| it.tip_mpa, 0.1),
     ];
 
@@ -266,6 +275,11 @@ impl SupportProfile {
             all.extend(sizes);
         }
         serde_json::from_value(all)
+    }
+
+    /// The pull of the film that counts.
+    pub fn film_kpa(&self) -> f64 {
+        self.film_kpa.unwrap_or(FILM_KPA)
     }
 
     /// Radius that a contact holds on a surface of a slope (rise over run): `spacing_mm` on a level one, half as much
@@ -307,6 +321,9 @@ impl Supporting {
         )
     }
 }
+
+/// Least clearance of pillars.
+const LEAST_CLEARANCE_MM: f64 = 0.1;
 
 /// Least distance between a raft and the model.
 const LEAST_GAP_MM: f64 = 1.0;
@@ -483,16 +500,14 @@ pub fn support(
     let highest_mm = contacts.iter().map(|it| it.at.z).fold(0.0, f64::max);
     // The thickest pillar that there can be needs the largest distance.
     let most_mm = trees::most_mm(&profile);
-    let mut clearance = Clearance::new(
+    let clearance = Clearance::new(
         columns,
         corner.extend(-profile.lift_mm as f32),
         highest_mm as f32,
         most_mm as f32,
         &mut |fraction| progress(0.2 + 0.5 * fraction),
     )?;
-    clearance.find_ways((profile.pillar_mm / 2.0 + profile.clearance_mm) as f32);
-    report(progress, 0.8)?;
-    let mut trees = Trees::new(&clearance, profile);
+    let mut trees = Trees::new(clearance, profile);
     let point = |contact: &Contact| {
         let is_own = contact.diameter_mm != profile.contact_mm;
         SupportPoint {
@@ -500,18 +515,10 @@ pub fn support(
             contact_mm: is_own.then_some(contact.diameter_mm),
         }
     };
-    let mut unreached: Vec<SupportPoint> = missed.iter().map(point).collect();
-    let mut points = Vec::new();
-    // From the highest down, so that others join a pillar as it passes.
-    let order = crate::argsort::argsort(contacts.iter().map(|it| -it.at.z));
-    for (done, contact) in order.iter().map(|&it| &contacts[it]).enumerate() {
-        report(progress, 0.8 + 0.2 * done as f64 / order.len() as f64)?;
-        match (trees.add(contact), contact.is_for_load) {
-            (true, _) => points.push(point(contact)),
-            (false, true) => {}
-            (false, false) => unreached.push(point(contact)),
-        }
-    }
+    let mut held = |fraction| progress(0.75 + 0.2 * fraction);
+    let (held, left) = trees.add_all(&contacts, &mut held)?;
+    let unreached = missed.iter().chain(left).map(point).collect();
+    let points = held.into_iter().map(point).collect();
     trees.brace();
     let (on_model, joints) = (trees.on_model(), trees.joints());
     let shell = trees.shell(wider_mm);

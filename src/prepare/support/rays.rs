@@ -7,6 +7,9 @@ use crate::ldi::Ldi;
 use crate::model::Winding;
 use crate::ways::{AROUND, beside};
 
+/// Gaps that no layer shows.
+const CLOSED_MM: f32 = 0.01;
+
 /// A range of a ray in the print.
 pub(super) struct Stretch {
     pub ray: usize,
@@ -42,7 +45,7 @@ impl<'a> Rays<'a> {
                     (false, true) => entry = (hit.z_mm, hit.facet()),
                     (true, false) => match rays.stretches[first..].last_mut() {
                         // Bodies that touch are one.
-                        Some(last) if entry.0 <= last.to_mm => last.to_mm = hit.z_mm,
+                        Some(last) if entry.0 <= last.to_mm + CLOSED_MM => last.to_mm = hit.z_mm,
                         _ => rays.stretches.push(Stretch {
                             ray,
                             from_mm: entry.0,
@@ -56,6 +59,33 @@ impl<'a> Rays<'a> {
             rays.starts.push(rays.stretches.len() as u32);
         }
         rays
+    }
+
+    /// Ranges in which there is no print, from a height up.
+    pub fn dark(&self, from_mm: f32) -> Self {
+        let mut dark = Self {
+            ldi: self.ldi,
+            starts: vec![0],
+            stretches: Vec::new(),
+        };
+        for ray in 0..self.ldi.rays() {
+            let mut from_mm = from_mm;
+            let lit = self.of_ray(ray).map(|it| &self.stretches[it]);
+            let ends = lit.map(|it| (it.from_mm, it.to_mm, it.facet));
+            for (to_mm, next_mm, facet) in ends.chain([(f32::MAX, f32::MAX, 0)]) {
+                if from_mm < to_mm {
+                    dark.stretches.push(Stretch {
+                        ray,
+                        from_mm,
+                        to_mm,
+                        facet,
+                    });
+                }
+                from_mm = next_mm;
+            }
+            dark.starts.push(dark.stretches.len() as u32);
+        }
+        dark
     }
 
     /// The places of a ray's stretches among all.

@@ -5,13 +5,15 @@
 
 use glam::DVec3;
 
-use super::SupportProfile;
 use super::clearance::{Clearance, End, is_steep};
 use super::contacts::Contact;
 use super::shapes::Shapes;
+use super::{LEAST_CLEARANCE_MM, SupportProfile};
 use crate::argsort;
+use crate::ldi::LdiError;
 use crate::prepare::round::circle;
 use crate::prepare::shell::Shell;
+use crate::progress::{Progress, report};
 
 /// No node.
 const NONE: u32 = u32::MAX;
@@ -31,6 +33,9 @@ const FOOT_COST_MM: f64 = 5.0;
 
 /// Number of nearest pillars that are tried.
 const TRIES: usize = 12;
+
+/// Clearances at which pillars are tried, as parts of what is asked.
+const CLEARANCES: [f64; 3] = [1.0, 0.5, 0.2];
 
 /// Lengths of tips that are tried, as parts of the usual one.
 const LENGTHS: [f64; 3] = [1.0, 0.7, 0.4];
@@ -96,9 +101,11 @@ struct Tip {
 }
 
 /// All supports of a model.
-pub(super) struct Trees<'a> {
-    clearance: &'a Clearance,
+pub(super) struct Trees {
+    clearance: Clearance,
     profile: SupportProfile,
+    /// Distance that pillars keep from the model.
+    clear_mm: f64,
     nodes: Vec<Node>,
     /// The lowest nodes, and the surface that they stand on.
     feet: Vec<(u32, End)>,
@@ -118,11 +125,12 @@ enum Hold {
     Branch(u32),
 }
 
-impl<'a> Trees<'a> {
-    pub fn new(clearance: &'a Clearance, profile: SupportProfile) -> Self {
+impl Trees {
+    pub fn new(clearance: Clearance, profile: SupportProfile) -> Self {
         Self {
             clearance,
             profile,
+            clear_mm: profile.clearance_mm,
             nodes: Vec::new(),
             feet: Vec::new(),
             tips: Vec::new(),
@@ -137,11 +145,44 @@ impl<'a> Trees<'a> {
     }
 
     fn need_mm(&self) -> f64 {
-        self.profile.pillar_mm / 2.0 + self.profile.clearance_mm
+        self.profile.pillar_mm / 2.0 + self.clear_mm
+    }
+
+    /// Supports contacts, closer to the model where nothing else reaches one. Returns those that are held, and those that nothing reaches,
+    /// less those that would only share loads.
+    pub fn add_all<'c>(
+        &mut self,
+        contacts: &'c [Contact],
+        progress: &mut Progress<'_>,
+    ) -> Result<(Vec<&'c Contact>, Vec<&'c Contact>), LdiError> {
+        // From the highest down, so that others join a pillar as it passes.
+        let order = argsort::argsort(contacts.iter().map(|it| -it.at.z));
+        let mut left: Vec<&Contact> = order.iter().map(|&it| &contacts[it]).collect();
+        let mut held = Vec::new();
+        let count = contacts.len() as f64;
+        for part in CLEARANCES {
+            if left.is_empty() {
+                break;
+            }
+            self.clear_mm = (part * self.profile.clearance_mm).max(LEAST_CLEARANCE_MM);
+            self.clearance.find_ways(self.need_mm() as f32);
+            let mut unheld = Vec::new();
+            for contact in left {
+                report(progress, held.len() as f64 / count)?;
+                if self.add(contact) {
+                    held.push(contact);
+                } else if !contact.is_for_load {
+                    unheld.push(contact);
+                }
+            }
+            left = unheld;
+        }
+        self.clear_mm = self.profile.clearance_mm;
+        Ok((held, left))
     }
 
     /// Supports a contact; `false` if there is no way to it. Contacts come from the highest down.
-    pub fn add(&mut self, contact: &Contact) -> bool {
+    fn add(&mut self, contact: &Contact) -> bool {
         let above_plate_mm = contact.at.z - self.plate_mm();
         if above_plate_mm > self.profile.tip_mm + self.profile.pillar_mm {
             let mut on_model = None;
@@ -196,7 +237,7 @@ impl<'a> Trees<'a> {
 
     /// Returns true if a tip touches the model only where it should.
     fn is_clear(&self, tip: &Tip) -> bool {
-        let need_mm = tip.end_mm + self.profile.clearance_mm;
+        let need_mm = tip.end_mm + self.clear_mm;
         let is_free = |part: f64| {
             let radius_mm = tip.radius_mm + (tip.end_mm - tip.radius_mm) * part;
             let at = tip.at + (tip.end - tip.at) * part;
@@ -269,7 +310,7 @@ impl<'a> Trees<'a> {
             if down == NONE {
                 return true;
             }
-            let need_mm = radius_mm(&self.profile, tips + 1) + self.profile.clearance_mm;
+            let need_mm = radius_mm(&self.profile, tips + 1) + self.clear_mm;
             // Above its foot on the model it cannot be clear of it.
             let is_foot = end == End::Model && self.nodes[down as usize].down == NONE;
             if !is_foot && f64::from(self.clearance.distance_mm(at)) < need_mm {
@@ -367,8 +408,8 @@ impl<'a> Trees<'a> {
 
     /// Radius of a foot on the plate, limited by the room that there is.
     fn foot_mm(&self, at: DVec3, pillar_mm: f64) -> f64 {
-        let room_mm = f64::from(self.clearance.distance_mm(at + DVec3::Z * 0.2))
-            - self.profile.clearance_mm / 2.0;
+        let room_mm =
+            f64::from(self.clearance.distance_mm(at + DVec3::Z * 0.2)) - self.clear_mm / 2.0;
         let known_mm = most_mm(&self.profile) - self.profile.clearance_mm;
         let foot_mm = (self.profile.foot_mm / 2.0).max(1.5 * pillar_mm);
         if room_mm >= known_mm {
@@ -462,8 +503,7 @@ impl<'a> Trees<'a> {
         while node != NONE {
             // Not into the model beside it.
             let at = self.nodes[node as usize].at;
-            let room_mm =
-                f64::from(self.clearance.distance_mm(at)) - STIFF * self.profile.clearance_mm;
+            let room_mm = f64::from(self.clearance.distance_mm(at)) - STIFF * self.clear_mm;
             self.least_mm[node as usize] = least_mm.min(room_mm.max(0.0));
             node = above[node as usize];
         }
@@ -499,7 +539,7 @@ impl<'a> Trees<'a> {
             let Some(high) = reached else {
                 return;
             };
-            let need_mm = (BRACE * self.profile.pillar_mm / 2.0 + self.profile.clearance_mm) as f32;
+            let need_mm = (BRACE * self.profile.pillar_mm / 2.0 + self.clear_mm) as f32;
             if away_mm > self.profile.pillar_mm && self.clearance.is_clear(low, high, need_mm) {
                 self.braces.push([low, high]);
             }

@@ -19,10 +19,10 @@ export const warnings = {
   "nothing-hollowed": "The model stays solid: it is nowhere thick enough for walls of {wall_mm|mm} around a cavity of {cavity_mm|mm}.",
   "nothing-to-drain": "The model has no closed cavity, so that no drain hole was made; hollow it.",
   "drain-astray": "Drain hole {drain_number|count} meets no void, and was left out; place it where the model is hollow, or turn it inward.",
-  undrained: "{basins|one:# part|other:# parts} of the void stay full, since no hole leads out of them on a level or downward; place holes there, or turn the model.",
+  undrained: "{basins|one:# part of the void stays|other:# parts of the void stay} full, since no hole leads out on a level or downward; place holes there, or turn the model.",
   "closed-cavities": "{cavities|one:# cavity of the model stays|other:# cavities of the model stay} closed, with {volume_mm3|volume} of resin, the largest at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; make holes to them, or fill them.",
   "support-astray": "Support {point_number|count} is not on the model, and was left out; place it on the surface.",
-  unsupported: "{points|one:# point|other:# points} without a support, since none gets there; turn the model, or choose lighter supports.",
+  unsupported: "{points|one:# point|other:# points} without a support, since the model is in the way on all sides; turn the model.",
   "own-supports": {
     kept: "Supports of the file hold the model at {tips|one:# point|other:# points}; they are printed as they are.",
     replaced: "Supports of the file hold the model at {tips|one:# point|other:# points}; those that you chose replace them.",
