@@ -76,6 +76,8 @@ pub mod profile;
 
 pub mod plan;
 
+pub mod cure;
+
 pub mod mask;
 
 pub mod inspect;

@@ -28,6 +28,10 @@ pub enum Quantity {
     ResinLayer,
     /// Penetration depth of the light.
     Penetration,
+    /// Depth below a layer to which its own exposure cures.
+    Overcure,
+    /// Part of the dose of earlier exposures that counts.
+    RetainedDose,
     /// Exposure of a layer.
     Exposure,
     /// Exposure of a bottom layer.
@@ -61,20 +65,20 @@ pub enum Unit {
     /// Densities.
     #[serde(rename = "g/ml")]
     GramPerMillilitre,
-    /// Tolerances: see [`crate::profile::Metric::unit`].
+    /// Tolerances, whose unit is the metric's ([`crate::profile::Metric::unit`]), and fractions.
     #[serde(rename = "")]
-    OfMetric,
+    Unstated,
 }
 
 impl Unit {
-    /// The symbol of the unit; empty for [`Self::OfMetric`].
+    /// The symbol of the unit; empty for [`Self::Unstated`].
     pub fn symbol(self) -> &'static str {
         match self {
             Self::Millimetre => "mm",
             Self::Second => "s",
             Self::MillimetrePerMinute => "mm/min",
             Self::GramPerMillilitre => "g/ml",
-            Self::OfMetric => "",
+            Self::Unstated => "",
         }
     }
 }
@@ -83,7 +87,7 @@ impl Quantity {
     /// The unit of the quantity.
     pub fn unit(self) -> Unit {
         match self {
-            Self::Tolerance => Unit::OfMetric,
+            Self::Tolerance | Self::RetainedDose => Unit::Unstated,
             Self::Exposure | Self::BottomExposure | Self::Wait => Unit::Second,
             Self::LiftSpeed | Self::ReturnSpeed => Unit::MillimetrePerMinute,
             Self::Density => Unit::GramPerMillilitre,
@@ -106,6 +110,7 @@ impl Quantity {
             Self::Tolerance => [0.0, 1e9],
             Self::ResinLayer => [1e-4, 10.0],
             Self::Penetration => [1e-4, 100.0],
+            Self::Overcure | Self::RetainedDose => [0.0, 1.0],
             Self::Exposure | Self::BottomExposure | Self::Wait => [0.0, 1e5],
             Self::Lift => [0.0, 1e3],
             Self::LiftSpeed | Self::ReturnSpeed => [0.1, 1e6],
@@ -126,6 +131,8 @@ impl Quantity {
             Self::Tolerance => "the tolerance",
             Self::ResinLayer => "the resin's layer thickness",
             Self::Penetration => "the penetration depth",
+            Self::Overcure => "the overcure",
+            Self::RetainedDose => "the retained part of earlier doses",
             Self::Exposure => "the exposure",
             Self::BottomExposure => "the bottom exposure",
             Self::Wait => "the wait between layers",

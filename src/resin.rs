@@ -43,6 +43,38 @@ pub struct Resin {
     pub density_g_ml: f64,
     /// Growth of a print beyond its masks.
     pub growth: Growth,
+    /// Cure below a layer, which masks and planes make up for in place of `growth.z_mm`. Absent: nothing does.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub print_through: Option<PrintThrough>,
+}
+
+/// Cure of a resin below a layer.
+#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[serde(deny_unknown_fields)]
+pub struct PrintThrough {
+    /// Overcure: depth below a layer of the resin's `layer_mm` to which its own exposure cures, in millimetres.
+    pub overcure_mm: f64,
+    /// Part of the dose of earlier exposures that counts, from 0 to 1: resin moves between exposures.
+    #[serde(default = "all")]
+    pub retained: f64,
+}
+
+fn all() -> f64 {
+    1.0
+}
+
+impl PrintThrough {
+    /// Checks that every number is within its bounds.
+    ///
+    /// # Errors
+    /// [`QuantityError::BadLength`].
+    pub fn check(&self) -> Result<(), QuantityError> {
+        Quantity::Overcure.check(self.overcure_mm)?;
+        Quantity::RetainedDose.check(self.retained)?;
+        Ok(())
+    }
 }
 
 impl Default for Resin {
@@ -62,6 +94,7 @@ impl Default for Resin {
             return_mm_min: 150.0,
             density_g_ml: 1.1,
             growth: Growth::default(),
+            print_through: None,
         }
     }
 }
@@ -89,6 +122,9 @@ impl Resin {
             quantity.check(value)?;
         }
         self.growth.check()?;
+        if let Some(print_through) = &self.print_through {
+            print_through.check()?;
+        }
         for pair in self.exposures.windows(2) {
             let (previous_mm, next_mm) = (pair[0][0], pair[1][0]);
             if previous_mm >= next_mm {
@@ -207,8 +243,8 @@ fn through(low: [f64; 2], high: [f64; 2], thickness_mm: f64) -> f64 {
     }
 }
 
-/// The natural logarithm of a number of at least 1, by basic arithmetic and square roots alone.
-fn ln(x: f64) -> f64 {
+/// The natural logarithm of a positive number, by basic arithmetic and square roots alone.
+pub(crate) fn ln(x: f64) -> f64 {
     const HALVINGS: i32 = 5;
     let root = (0..HALVINGS).fold(x, |root, _| root.sqrt());
     // The series of the inverse hyperbolic tangent, accurate to the last digits up to 1e9, a day to 0.1 ms.
@@ -223,7 +259,7 @@ fn ln(x: f64) -> f64 {
 }
 
 /// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, which would make plans differ.
-fn exp(x: f64) -> f64 {
+pub(crate) fn exp(x: f64) -> f64 {
     const HALVINGS: i32 = 10;
     // The series is accurate to the last digits for |small| below about 1/20. Beyond, e to the power of x times any exposure is
     // nothing, or more than its cap.

@@ -195,6 +195,22 @@ pub enum Warning {
         /// The largest area that it erases in one layer, in square millimetres.
         area_mm2: f64,
     },
+    /// Roofs are so thin that even their last layer alone cures too deep.
+    ThinRoofs {
+        /// Their area in square millimetres.
+        area_mm2: f64,
+        /// The most by which one is too low, in millimetres.
+        deep_mm: f64,
+        /// The first of them, from the middle of its model and above the plate.
+        at_mm: [f64; 3],
+    },
+    /// Light through the roofs of gaps cures all of the resin in them.
+    ClosedGaps {
+        /// Their area in square millimetres.
+        area_mm2: f64,
+        /// The first of them, from the middle of its model and above the plate.
+        at_mm: [f64; 3],
+    },
     /// The printer or its file takes one thickness for all layers, and the plan has several. Its print file will be refused.
     OneThickness {
         /// Make and model of the printer, or the name of the format.
@@ -317,6 +333,23 @@ impl Warning {
                 "compensation erases parts of {}, from {from_mm:.3} mm up, at most {area_mm2:.2} mm² of one: they are no thicker \
                  than what it takes away; thicken them, or set a least width that it leaves alone",
                 counted(*layers, "layer"),
+            ),
+            Self::ThinRoofs {
+                area_mm2,
+                deep_mm,
+                at_mm: [x, y, z],
+            } => write!(
+                f,
+                "light cures through roofs over {area_mm2:.2} mm² and leaves them up to {deep_mm:.3} mm too low, the first at \
+                 {x}, {y}, {z}; thicken them, or turn the model"
+            ),
+            Self::ClosedGaps {
+                area_mm2,
+                at_mm: [x, y, z],
+            } => write!(
+                f,
+                "light cures through roofs down to the floor and closes gaps over {area_mm2:.2} mm², the first at \
+                 {x}, {y}, {z}; widen them, or turn the model"
             ),
             _ => Ok(()),
         }
@@ -448,9 +481,11 @@ impl std::fmt::Display for Warning {
                 f,
                 "{unclosed} of {rays} rays pass holes of the mesh, which caps close; look at the masks"
             ),
-            Self::MissedBodies { .. } | Self::BlackLayers { .. } | Self::ErasedParts { .. } => {
-                self.of_vanishing(f)
-            }
+            Self::MissedBodies { .. }
+            | Self::BlackLayers { .. }
+            | Self::ErasedParts { .. }
+            | Self::ThinRoofs { .. }
+            | Self::ClosedGaps { .. } => self.of_vanishing(f),
             Self::ToleranceExceeded {
                 metric,
                 tolerance,

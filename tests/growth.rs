@@ -4,7 +4,7 @@ use crate::common::{on_plate, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::growth::Growth;
 use cusp_slicer::ldi::{Ldi, cpu};
-use cusp_slicer::mask::{Light, Masks, RunSource, Samples, Shrinking, Side};
+use cusp_slicer::mask::{Light, Masks, Raise, RunSource, Samples, Shrinking, Side};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::plan::{Plan, uniform};
 use cusp_slicer::progress::silent;
@@ -70,9 +70,12 @@ fn naive(
     let mut counts = vec![0; (columns * rows) as usize];
     let middles = plan.middles_of_parts_mm(samples.sublayers);
     let parts = samples.sublayers as usize;
+    let Raise::By(z_mm) = shrinking.raise else {
+        unreachable!()
+    };
     for middle_mm in &middles[layer * parts..(layer + 1) * parts] {
         let lit: Vec<bool> = (0..(width * height) as usize)
-            .map(|ray| is_lit(whole, ray, *middle_mm, shrinking.z_mm, &middles, parts))
+            .map(|ray| is_lit(whole, ray, *middle_mm, z_mm, &middles, parts))
             .collect();
         for row in 0..height {
             for column in 0..width {
@@ -151,7 +154,7 @@ fn every_pixel_agrees_with_a_naive_erosion() {
             };
             let shrinking = Shrinking {
                 xy_mm: growth.of_layers_mm(plan.layers(), 2),
-                z_mm: growth.z_mm,
+                raise: Raise::By(growth.z_mm),
                 least_mm: 0.0,
             };
             let masks = Masks::shrunk(&ldi, &plan, &grid, samples, Side::Above, &shrinking);
@@ -188,7 +191,7 @@ fn without_growth_nothing_changes() {
         let [ldi, _] = rays(&mesh, &grid, samples);
         let shrinking = Shrinking {
             xy_mm: vec![0.0; plan.layers()],
-            z_mm: 0.0,
+            raise: Raise::By(0.0),
             least_mm: 0.0,
         };
         for side in [Side::Above, Side::Below] {
@@ -215,7 +218,7 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
     };
     let shrinking = Shrinking {
         xy_mm: growth.of_layers_mm(plan.layers(), 2),
-        z_mm: 0.0,
+        raise: Raise::By(0.0),
         least_mm: 0.0,
     };
     let masks = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);
@@ -243,7 +246,7 @@ fn raised_entries_are_those_of_counted_layers() {
         let layers = 3;
         let shrinking = Shrinking {
             xy_mm: vec![0.0; plan.layers()],
-            z_mm: plan.thickness_mm()[0] * layers as f64,
+            raise: Raise::By(plan.thickness_mm()[0] * layers as f64),
             least_mm: 0.0,
         };
         let raised = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);

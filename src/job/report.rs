@@ -13,7 +13,7 @@ use crate::archive::Manifest;
 use crate::filament::FilamentReport;
 use crate::format::Format;
 use crate::ldi::Solid;
-use crate::mask::black_layers;
+use crate::mask::{PrintThroughReport, black_layers};
 use crate::model::{Mesh, ModelFile, ModelUnit};
 use crate::orientation;
 use crate::plan::tradeoff::TradeoffPoint;
@@ -442,6 +442,9 @@ pub struct Report {
     pub printer: Option<String>,
     /// Heights of the planes at flats and sharp changes.
     pub snapped_mm: Vec<f64>,
+    /// Errors of surfaces that face down after cure below layers, if the resin states its print-through and memory is not bounded.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    pub print_through: Option<PrintThroughReport>,
     /// Metric of the error.
     pub metric: Metric,
     /// The unit of tolerance and errors: `mm`, `mm³`, or empty for a fraction.
@@ -540,6 +543,7 @@ pub(super) fn report_of(
         models,
         layering,
         plan,
+        print_through,
         findings,
     } = planned;
     let sampled = &planned.first().of;
@@ -593,6 +597,7 @@ pub(super) fn report_of(
         resin_ml: solid.volume_mm3 / 1e3,
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
+        print_through: *print_through,
         metric: layering.metric,
         unit: layering.metric.unit().to_owned(),
         source: layering.source,

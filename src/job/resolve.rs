@@ -32,7 +32,10 @@ impl Options {
     fn resolve_settled(&self) -> Result<Resolved, Error> {
         let printer = find_printer(self.printer.as_ref())?;
         let filament = self.check_filament(printer.as_deref())?;
-        let layering = self.layering(printer.as_deref())?;
+        let mut layering = self.layering(printer.as_deref())?;
+        if filament.is_some() {
+            layering.resin.print_through = None;
+        }
         let mut sampling = self.sampling(printer.as_deref())?;
         sampling.wider_mm = layering.support_wider_mm(self.supports.is_some());
         Ok(Resolved {

@@ -20,6 +20,27 @@ pub fn printed_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32,
     for_each_range(hits, passing(classes), Winding::is_inside, emit);
 }
 
+/// [`printed_ranges`], each with true if the ray enters it through a support.
+#[inline]
+pub fn printed_entries(hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(f32, f32, bool)) {
+    let model_end = classes.model_end();
+    if classes.is_model_alone() || hits.iter().all(|hit| hit.facet() < model_end) {
+        return printed_ranges(hits, classes, |z_in, z_out| emit(z_in, z_out, false));
+    }
+    let pass = passing(classes);
+    let mut winding = Winding::default();
+    let mut entry = (0.0, false);
+    for &hit in hits {
+        let was_inside = winding.is_inside();
+        pass(&mut winding, hit);
+        match (was_inside, winding.is_inside()) {
+            (false, true) => entry = (hit.z_mm, winding.is_support_alone()),
+            (true, false) if entry.0 < hit.z_mm => emit(entry.0, hit.z_mm, entry.1),
+            _ => {}
+        }
+    }
+}
+
 /// [`printed_ranges`] for supports alone: see [`Winding::is_support_alone`].
 pub(super) fn support_ranges(hits: &[Hit], classes: FacetClasses, emit: impl FnMut(f32, f32)) {
     let is_support = |hit: &Hit| classes.of(hit.facet()) == FacetClass::Support;

@@ -6,11 +6,12 @@
 
 use std::ops::Range;
 
+use super::entries::Raise;
 use super::samples::SublayerOf;
 use super::shrink::{Part, Rows, Shrink};
 use super::step::{Disc, Step, Stretch, without};
 use super::{Samples, Shrinking};
-use crate::ldi::{Ldi, printed_ranges};
+use crate::ldi::Ldi;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -91,26 +92,29 @@ pub(crate) fn erased_mm2(
 
 /// Returns true if nothing is left of any stretch along a ray where surfaces that face down move up.
 fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
-    if shrink.shrinking.z_mm == 0.0 {
+    if raised_mm(shrink) == 0.0 {
         return false;
     }
-    let Shrink {
-        ldi, sublayer_of, ..
-    } = shrink;
+    let (ldi, entries) = (shrink.ldi, shrink.entries());
     let width = ldi.grid.width as usize;
     let found = parallel::map(bands.to_vec(), |rows| {
         let mut found = false;
         for ray in rows.start * width..rows.end * width {
-            let mut last_off = 0;
-            printed_ranges(ldi.ray(ray), ldi.classes, |z_in, z_out| {
-                let off = sublayer_of.first_above(z_out);
-                found |= sublayer_of.first_above(z_in) < off && off <= shrink.entry(z_in, last_off);
-                last_off = off;
+            entries.each(ldi.ray(ray), ldi.classes, |on, off, unraised| {
+                found |= unraised < off && off <= on;
             });
         }
         found
     });
     found.contains(&true)
+}
+
+/// Distance by which all surfaces that face down move up. Where compensation follows the cure, a layer of each range stays lit.
+fn raised_mm(shrink: &Shrink<'_>) -> f64 {
+    match shrink.shrinking.raise {
+        Raise::By(distance_mm) => distance_mm,
+        Raise::Cured(_) => 0.0,
+    }
 }
 
 /// The number of rays that are erased in a band of rows at each sublayer of some layers.
@@ -154,7 +158,7 @@ fn erased(shrink: &Shrink<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
 
 /// The disc that what stays lit is grown by.
 fn reach_of(shrink: &Shrink<'_>, step: &Step) -> Disc {
-    let reach_mm = REACH_XY * step.taken_mm() + REACH_Z * shrink.shrinking.z_mm;
+    let reach_mm = REACH_XY * step.taken_mm() + REACH_Z * raised_mm(shrink);
     Disc::new(reach_mm, &shrink.rays)
 }
 

@@ -5,8 +5,10 @@
 //! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
 mod columns;
+mod entries;
 mod erased;
 mod plate;
+mod print_through;
 mod runs;
 mod samples;
 mod shrink;
@@ -17,8 +19,11 @@ mod window;
 use std::ops::Range;
 
 pub(crate) use columns::Until;
+pub use entries::Raise;
 pub(crate) use erased::erased_mm2;
 pub use plate::{PlateMasks, PlateReadPlace, PlateRuns, Stamp};
+pub(crate) use print_through::print_through;
+pub use print_through::{BottomErrors, PrintThroughReport};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
 pub use shrink::Shrinking;
@@ -26,9 +31,10 @@ pub use slabs::SlabMasks;
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
-use crate::ldi::{Ldi, Solid, printed_ranges};
+use crate::ldi::{Ldi, Solid};
 use crate::parallel;
 use crate::plan::Plan;
+use entries::{Entries, LitRanges};
 use samples::SublayerOf;
 use shrink::Shrink;
 use window::Place;
@@ -70,16 +76,27 @@ impl Masks {
     /// hit; with several, 5 bytes per change and at most two changes per hit.
     pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid, samples: Samples, side: Side) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+        Self::of_rays(ldi, plan, grid, samples, side, &sublayer_of)
+    }
+
+    /// The masks of a plan, given the lit ranges of rays.
+    fn of_rays(
+        ldi: &Ldi,
+        plan: &Plan,
+        grid: &Grid,
+        samples: Samples,
+        side: Side,
+        ranges: &(impl LitRanges + Sync),
+    ) -> Self {
         let width = ldi.grid.width as usize;
         let place = Place::new(&ldi.grid, grid, samples, side);
         Self::of_bands(plan, grid, samples, &place, |rows, changes| {
             for row in rows {
                 for (column, &in_row) in place.columns.iter().enumerate() {
                     let pixel = place.rows[row] + in_row;
-                    printed_ranges(ldi.ray(row * width + column), ldi.classes, |z_in, z_out| {
-                        let on = sublayer_of.first_above(z_in);
-                        let off = sublayer_of.first_above(z_out);
-                        if on == off {
+                    let hits = ldi.ray(row * width + column);
+                    ranges.of_ray(hits, ldi.classes, |on, off| {
+                        if on >= off {
                             return;
                         }
                         for (sublayer, sign) in [(on, 1), (off, -1)] {
@@ -105,6 +122,14 @@ impl Masks {
         shrinking: &Shrinking,
     ) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+        if shrinking.xy_mm.iter().all(|&mm| mm == 0.0) {
+            let entries = Entries {
+                sublayer_of: &sublayer_of,
+                parts: samples.sublayers,
+                raise: &shrinking.raise,
+            };
+            return Self::of_rays(ldi, plan, grid, samples, side, &entries);
+        }
         let all_rays = grid.refined(samples.rays());
         let rays = all_rays.extended(&ldi.grid, shrink::margin(shrinking, &ldi.grid));
         let offset = rays.offset_of(&ldi.grid);

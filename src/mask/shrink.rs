@@ -6,19 +6,20 @@
 
 use std::ops::Range;
 
+use super::entries::{Entries, Raise};
 use super::samples::SublayerOf;
 use super::step::{Step, Stretch};
 use super::{Change, each_change};
 use crate::grid::Grid;
-use crate::ldi::{Ldi, printed_ranges};
+use crate::ldi::Ldi;
 
 /// Compensations in masks.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Shrinking {
     /// For each layer, the distance by which lit areas shrink on each side, in millimetres; negative: grow.
     pub xy_mm: Vec<f64>,
-    /// Distance by which surfaces that face down move up, in millimetres.
-    pub z_mm: f64,
+    /// Compensation of surfaces that face down.
+    pub raise: Raise,
     /// The least width that shrinking leaves, measured along rows and columns, in millimetres; narrower features are not changed. 0 for none.
     pub least_mm: f64,
 }
@@ -63,15 +64,13 @@ impl Shrink<'_> {
         first..(rows.end as i32 + halo).min(self.rays.height as i32)
     }
 
-    /// The first sublayer of an entry, moved up unless it is in the first layer, as nothing cures below the plate, or the ray
-    /// is lit up to it: `last_off` is the sublayer of the exit before.
-    pub fn entry(&self, z_in: f32, last_off: u32) -> u32 {
-        let on = self.sublayer_of.first_above(z_in);
-        if on < self.parts || on == last_off {
-            return on;
+    /// The lit ranges of rays.
+    pub fn entries(&self) -> Entries<'_> {
+        Entries {
+            sublayer_of: self.sublayer_of,
+            parts: self.parts,
+            raise: &self.shrinking.raise,
         }
-        let raised_mm = f64::from(z_in) + self.shrinking.z_mm;
-        self.sublayer_of.first_above(raised_mm as f32)
     }
 
     /// Calls `emit` for every change in these rows of the extended rays, given the pixel of each ray.
@@ -134,9 +133,7 @@ pub(super) struct Rows {
 
 impl Rows {
     pub fn new(shrink: &Shrink<'_>, rows: Range<i32>, part: Part) -> Self {
-        let Shrink {
-            ldi, sublayer_of, ..
-        } = shrink;
+        let (ldi, entries) = (shrink.ldi, shrink.entries());
         let sublayers = shrink.shrinking.xy_mm.len() as u32 * shrink.parts;
         let [left, above] = shrink.offset.map(|side| side as i32);
         let width = ldi.grid.width as usize;
@@ -151,13 +148,9 @@ impl Rows {
             };
             for column in 0..width {
                 let hits = ldi.ray(ray_row * width + column);
-                let mut last_off = 0;
-                printed_ranges(hits, ldi.classes, |z_in, z_out| {
-                    let mut on = shrink.entry(z_in, last_off);
-                    let off = sublayer_of.first_above(z_out);
-                    last_off = off;
+                entries.each(hits, ldi.classes, |mut on, off, unraised| {
                     if part == Part::Whole && off <= on {
-                        on = sublayer_of.first_above(z_in);
+                        on = unraised;
                     }
                     if on < off {
                         flips.push((on, row, column as i32 + left));

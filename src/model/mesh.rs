@@ -423,6 +423,12 @@ impl Mesh {
         (b - a).cross(c - a).z.abs() * 0.5
     }
 
+    /// Returns true if the outward normal of a facet points down.
+    pub fn faces_down(&self, facet: usize) -> bool {
+        let [a, b, c] = self.corners(facet);
+        (b - a).cross(c - a).z < 0.0
+    }
+
     /// A copy that stands on the plate in this pose, with its lowest point at z = 0, centred on x = y = 0.
     ///
     /// # Errors

@@ -255,7 +255,15 @@ impl Surface {
         };
         let area = |facet: usize| f64::from(self.areas_mm2[facet]);
         let facets = &self.basins.facets()[..self.order.len()];
-        FacetBins::new(bins, facets, &placement.heights_mm, square, area)
+        let faces_down = |facet: usize| placement.n_z[facet] < 0.0;
+        FacetBins::new(
+            bins,
+            facets,
+            &placement.heights_mm,
+            square,
+            area,
+            faces_down,
+        )
     }
 
     /// The metrics of a plan in a placement, with supports of this profile. Weights are in the order of facets here.

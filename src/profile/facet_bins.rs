@@ -28,6 +28,8 @@ pub struct Flat {
     pub boundary: u32,
     /// Its area in mm².
     pub area_mm2: f64,
+    /// True if its normal points down.
+    pub faces_down: bool,
 }
 
 impl FacetBins {
@@ -41,17 +43,19 @@ impl FacetBins {
             &heights_mm,
             |facet| mesh.n_z_squared(facet),
             |facet| mesh.projected_mm2(facet),
+            |facet| mesh.faces_down(facet),
         )
     }
 
-    /// The facet bins of any facets, given the heights of vertices, a function for the `n_z²` of a facet, and one for the
-    /// area in mm² of a horizontal facet.
+    /// The facet bins of any facets, given the heights of vertices, a function for the `n_z²` of a facet, and two for the
+    /// area in mm² of a horizontal facet, and whether it faces down.
     pub(crate) fn new(
         bins: Bins,
         facets: &[[u32; 3]],
         heights_mm: &[f32],
         n_z_squared: impl Fn(usize) -> f32,
         area_mm2: impl Fn(usize) -> f64,
+        faces_down: impl Fn(usize) -> bool,
     ) -> Self {
         let heights = heights_mm.iter();
         let bin_of: Vec<u32> = heights
@@ -70,6 +74,7 @@ impl FacetBins {
                     facet: facet as u32,
                     boundary: bins.nearest_boundary((a + b + c) / 3.0),
                     area_mm2: area_mm2(facet),
+                    faces_down: faces_down(facet),
                 }
             })
             .collect();

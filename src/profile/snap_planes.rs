@@ -1,6 +1,8 @@
 //! Heights that deserve a plane (section 3.3): flats, so that they print at their true height, and sharp changes of the
 //! profile.
 
+use std::collections::BTreeSet;
+
 use super::cusp::density_of;
 use super::facet_bins::Flat;
 use super::steepest::NO_SURFACE;
@@ -23,16 +25,40 @@ pub struct Surface<'a> {
 /// at least `flat_area_mm2`, by area; then changes of a model's cusp height density by more than [`SHARP`], by size. Of several
 /// models the largest area and the largest change count, so that neither copies nor other models make a plane.
 pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
+    raised_planes(surfaces, bins, flat_area_mm2, |boundary| boundary)
+}
+
+/// The same where flats that face down have their planes where `raised` puts them: there light cures down to them. Their sharp changes have
+/// none.
+pub fn raised_planes(
+    surfaces: &[Surface<'_>],
+    bins: Bins,
+    flat_area_mm2: f64,
+    raised: impl Fn(u32) -> u32,
+) -> Vec<u32> {
     let mut flats: Vec<(u32, f64)> = Vec::new();
     let mut sharp: Vec<(u32, f64)> = Vec::new();
     for surface in surfaces {
-        let levels = levels(surface.flats, bins);
+        let mut raised_flats = surface.flats.to_vec();
+        for flat in raised_flats.iter_mut().filter(|flat| flat.faces_down) {
+            flat.boundary = raised(flat.boundary);
+        }
+        let levels = levels(&raised_flats, bins);
         flats.extend(
             levels
                 .into_iter()
                 .filter(|&(_, area_mm2)| area_mm2 >= flat_area_mm2),
         );
-        sharp.extend(sharp_changes(surface.steepest, bins));
+        let pairs = surface.flats.iter().zip(&raised_flats);
+        let moved: BTreeSet<u32> = pairs
+            .filter(|(flat, raised)| flat.boundary != raised.boundary)
+            .map(|(flat, _)| flat.boundary)
+            .collect();
+        let changes = sharp_changes(surface.steepest, bins).into_iter();
+        sharp.extend(changes.filter(|&(boundary, _)| {
+            // A change lies at the flat, or a bin beside it.
+            !(boundary.saturating_sub(1)..=boundary + 1).any(|it| moved.contains(&it))
+        }));
     }
     if surfaces.len() > 1 {
         (flats, sharp) = (largest(&flats), largest(&sharp));

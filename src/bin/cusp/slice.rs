@@ -252,8 +252,20 @@ fn describe_plates(job: &LoadedJob, report: &JobReport) -> String {
 fn describe_plan(report: &Report) -> String {
     match &report.print_file.filament {
         Some(filament) => describe_filament(report, filament),
-        None => describe_resin(report) + &describe_supports(report),
+        None => describe_resin(report) + &describe_bottoms(report) + &describe_supports(report),
     }
+}
+
+/// A line about surfaces that face down, if the resin states its print-through.
+fn describe_bottoms(report: &Report) -> String {
+    let Some(found) = &report.print_through else {
+        return String::new();
+    };
+    let (after, before) = (&found.after, &found.before);
+    format!(
+        "\nbottoms   {:.3} mm off on average and {:.3} at most; {:.3} and {:.3} without compensation for print-through",
+        after.mean_mm, after.largest_mm, before.mean_mm, before.largest_mm
+    )
 }
 
 /// A line about the supports of each model: how many contacts there are, and what the one bears that bears most.

@@ -370,6 +370,8 @@ fn warnings() -> Vec<Warning> {
         TopMoved { top_mm: 9.95, height_mm: 10.025 },
         BlackLayers { layers: 12, from_mm: 1.25 },
         ErasedParts { layers: 12, from_mm: 1.25, area_mm2: 3.75 },
+        ThinRoofs { area_mm2: 3.75, deep_mm: 0.125, at_mm: [1.25, -2.5, 12.75] },
+        ClosedGaps { area_mm2: 3.75, at_mm: [1.25, -2.5, 12.75] },
         OneThickness {
             taker: "Anycubic Photon Mono M5s".to_owned(),
             best: Some(UniformLayers { layer_mm: 0.07, layers: 857 }),

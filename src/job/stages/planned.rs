@@ -7,13 +7,20 @@ use super::memory::Bound;
 use super::parts::Layering;
 use super::planning::{Findings, Planning};
 use super::sampled::Sampled;
+use crate::cure::Cure;
 use crate::job::Error;
 use crate::ldi::LdiError;
-use crate::mask::{Masks, RunSource, Shrinking, Side, SlabMasks, erased_mm2};
+use crate::mask::{
+    Masks, PrintThroughReport, Raise, RunSource, Shrinking, Side, SlabMasks, erased_mm2,
+    print_through,
+};
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
 use crate::progress::{Cancelled, Progress};
 use crate::warning::Warning;
+
+/// The most plans until planes at flats that face down stay.
+const ROUNDS: usize = 4;
 
 /// A model of a plan, as it was measured.
 #[derive(Debug, Clone)]
@@ -58,6 +65,8 @@ pub struct Planned {
     pub layering: Layering,
     pub plan: Plan,
     pub findings: Findings,
+    /// Errors of surfaces that face down, if the resin states its print-through.
+    pub print_through: Option<PrintThroughReport>,
 }
 
 impl Planned {
@@ -71,19 +80,61 @@ impl Planned {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Error> {
         let parts = models.iter().map(PlannedModel::part).collect();
-        let planning = Planning::new(parts, layering);
-        let share = if layering.growth.is_none() { 1.0 } else { 0.5 };
-        let plan = planning.plan(&mut |fraction| progress(share * fraction))?;
+        let mut planning = Planning::new(parts, layering);
+        let compensates = !layering.growth.is_none() || layering.resin.print_through.is_some();
+        let share = if compensates { 0.5 } else { 1.0 };
+        let mut plan = planning.plan(&mut |fraction| progress(share * fraction))?;
+        // Planes move with the doses of the plan, and the plan with the planes.
+        for _ in 0..ROUNDS {
+            let cure = Cure::of_plan(&plan, &layering.resin);
+            if !cure.is_some_and(|cure| planning.raise(&cure)) {
+                break;
+            }
+            plan = planning.plan(&mut |_| progress(share))?;
+        }
         let mut planned = Self {
             findings: planning.findings(&plan)?,
             models,
             layering: layering.clone(),
             plan,
+            print_through: None,
         };
         let mut within = |fraction| progress(share + (1.0 - share) * fraction);
         let erased = planned.erased(&mut within).map_err(LdiError::from)?;
         planned.findings.warnings.extend(erased);
+        let measured = planned.measure_print_through(progress);
+        planned.print_through = measured.map_err(LdiError::from)?;
+        let warnings = planned
+            .print_through
+            .iter()
+            .flat_map(PrintThroughReport::warnings);
+        planned.findings.warnings.extend(warnings);
         Ok(planned)
+    }
+
+    /// Errors of surfaces that face down, over all models and copies. Without an LDI nothing is known.
+    fn measure_print_through(
+        &self,
+        progress: &mut Progress<'_>,
+    ) -> Result<Option<PrintThroughReport>, Cancelled> {
+        let Layering { resin, .. } = &self.layering;
+        let Some(cure) = Cure::of_plan(&self.plan, resin) else {
+            return Ok(None);
+        };
+        let others = Cure::within(&self.plan, resin);
+        let mut all: Option<PrintThroughReport> = None;
+        for model in &self.models {
+            let Ok(ldi) = model.sampled().ldi() else {
+                continue;
+            };
+            let samples = model.sampled().sampling.samples;
+            let its = print_through(ldi, &self.plan, samples, &cure, &others, &mut |_| {
+                progress(1.0)
+            })?;
+            let its = its.of_copies(model.copies);
+            all = Some(all.map_or(its, |all| all.and(&its)));
+        }
+        Ok(all)
     }
 
     /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,
@@ -181,9 +232,13 @@ impl Planned {
     /// Compensations in the masks, if there are any.
     fn shrinking(&self) -> Option<Shrinking> {
         let Layering { growth, resin, .. } = &self.layering;
-        (!growth.is_none()).then(|| Shrinking {
+        let cure = Cure::of_plan(&self.plan, resin);
+        if growth.is_none() && cure.is_none() {
+            return None;
+        }
+        Some(Shrinking {
             xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
-            z_mm: growth.z_mm,
+            raise: cure.map_or(Raise::By(growth.z_mm), Raise::Cured),
             least_mm: self.layering.min_feature_mm,
         })
     }

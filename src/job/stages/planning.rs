@@ -6,6 +6,8 @@ use super::measured::Part;
 use super::parts::{Layering, Target, Thicknesses};
 use super::tolerances::{Sharing, errors_of, largest, sharing, tolerance};
 use crate::argsort::argsort;
+use crate::cure::Cure;
+use crate::grid::Bins;
 use crate::job::{BestUniform, Error, Minimize, Planner, PlannerReport, UniformReport};
 use crate::ldi::LdiError;
 use crate::plan::optimal::Objective;
@@ -15,7 +17,7 @@ use crate::plan::uniform::layers_above;
 use crate::plan::{Limits, Plan, PlanError, gradual, greedy, optimal, thicknesses, uniform};
 use crate::profile::largest::Strictness;
 use crate::profile::shapes::Shapes;
-use crate::profile::snap_planes::{Surface, snap_planes};
+use crate::profile::snap_planes::{Surface, raised_planes};
 use crate::profile::{LayerErrors, Metric, Source, area};
 use crate::progress::{Progress, silent};
 use crate::warning::Warning;
@@ -71,20 +73,7 @@ impl<'a> Planning<'a> {
             Source::Sampled => Some(of(Source::Sampled)),
         };
         let errors = sampled.as_ref().unwrap_or(&exact);
-        let snap_planes = match layering.snap_mm2 {
-            None => Vec::new(),
-            Some(area_mm2) => {
-                let surfaces: Vec<Surface<'_>> = parts
-                    .iter()
-                    .map(|part| Surface {
-                        flats: &part.shapes.flats,
-                        // Rays miss upright walls, and with them where a slope begins.
-                        steepest: &part.shapes.of(Source::Exact).steepest,
-                    })
-                    .collect();
-                snap_planes(&surfaces, errors.bins(), area_mm2)
-            }
-        };
+        let snap_planes = snap_planes_of(&parts, layering, errors.bins(), |boundary| boundary);
         let heights_mm = parts.iter().map(|part| part.height_mm);
         Self {
             height_mm: heights_mm.fold(0.0, f64::max),
@@ -95,6 +84,19 @@ impl<'a> Planning<'a> {
             sampled,
             snap_planes,
         }
+    }
+
+    /// Moves snap planes at flats that face down to where their layers cure down to the flats, by the doses of a plan. Returns false if none
+    /// moves.
+    pub fn raise(&mut self, cure: &Cure) -> bool {
+        let bins = self.errors().bins();
+        let raised = |boundary: u32| match boundary {
+            0 => 0,
+            _ => bins.nearest_boundary(cure.plane_mm(bins.boundary_mm(boundary))),
+        };
+        let planes = snap_planes_of(&self.parts, self.layering, bins, raised);
+        let before = std::mem::replace(&mut self.snap_planes, planes);
+        before != self.snap_planes
     }
 
     /// Errors of layers under the metric, from the source that plans are made from.
@@ -455,4 +457,23 @@ impl<'a> Planning<'a> {
             points,
         )
     }
+}
+
+/// The snap planes of models, those at flats that face down where `raised` puts them.
+fn snap_planes_of(
+    parts: &[Part<'_>],
+    layering: &Layering,
+    bins: Bins,
+    raised: impl Fn(u32) -> u32,
+) -> Vec<u32> {
+    let Some(area_mm2) = layering.snap_mm2 else {
+        return Vec::new();
+    };
+    let surfaces = parts.iter().map(|part| Surface {
+        flats: &part.shapes.flats,
+        // Rays miss upright walls, and with them where a slope begins.
+        steepest: &part.shapes.of(Source::Exact).steepest,
+    });
+    let surfaces: Vec<Surface<'_>> = surfaces.collect();
+    raised_planes(&surfaces, bins, area_mm2, raised)
 }

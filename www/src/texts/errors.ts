@@ -183,6 +183,8 @@ export const errorNames = {
     tolerance: "The tolerance",
     "resin-layer": "The resin's layer thickness",
     penetration: "The penetration depth",
+    overcure: "The overcure",
+    "retained-dose": "The retained part of earlier doses",
     exposure: "The exposure",
     "bottom-exposure": "The bottom exposure",
     wait: "The wait between layers",

@@ -96,6 +96,8 @@ export const plan = {
     rayError: "The same as rays see it",
     cuspError: "Largest cusp height",
     deviation: "Largest deviation",
+    undersides: "Undersides",
+    undersidesOff: "{mean} off on average, {largest} at most ({before} without compensation)",
     trueError: "Without weights and caps",
     flats: "Planes at flats",
     source: "Planned from",

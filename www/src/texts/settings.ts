@@ -91,6 +91,10 @@ export const settings = {
     exposureHint: "For {thickness}; thicker takes longer.",
     bottomExposure: "Bottom exposure",
     bottomLayers: "Bottom layers",
+    overcure: "Print-through: overcure",
+    overcureHint: "Depth to which a layer cures below itself. Overhangs then print at their true height.",
+    penetration: "Penetration depth",
+    retained: "Retained dose",
   },
   faults: {
     number: "Enter a number, {range}.",

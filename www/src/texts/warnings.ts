@@ -35,6 +35,8 @@ export const warnings = {
   "top-moved": "The print ends at {top_mm|mm}, since layers do not add up to {height_mm|mm}.",
   "extrapolated-exposures": "The exposure of {layers|one:# layer|other:# layers} is extrapolated, since exposures are measured from {thinnest_mm|exact} to {thickest_mm|mm} alone; measure theirs, or keep the minimum and maximum layer thickness within that range.",
   "black-layers": "{layers|one:# layer of the plan is|other:# layers of the plan are} black, from {from_mm|height} up: parts hang in the air, or are thinner than a pixel; look at the masks there.",
+  "thin-roofs": "Light cures through roofs over {area_mm2|tick}\u00a0mm² and leaves them up to {deep_mm|height} too low, the first at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; thicken them, or turn the model.",
+  "closed-gaps": "Light cures through roofs down to the floor and closes gaps over {area_mm2|tick}\u00a0mm², the first at {at_mm.0|tick}, {at_mm.1|tick}, {at_mm.2|tick}; widen them, or turn the model.",
   "erased-parts": "Compensation erases parts of {layers|one:# layer|other:# layers}, from {from_mm|height} up, at most {area_mm2|tick}\u00a0mm² of one: they are no thicker than what it takes away; thicken them, or set a least width that it leaves alone.",
   "one-thickness": {
     none: "{taker} takes one thickness for all layers, and this plan has several; choose the uniform planner.",

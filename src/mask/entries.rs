@@ -1,0 +1,159 @@
+//! Sublayers at which the rays of a pixel become lit and dark.
+
+use super::samples::SublayerOf;
+use crate::cure::{Cure, Light};
+use crate::ldi::{Hit, printed_entries, printed_ranges};
+use crate::model::FacetClasses;
+
+/// Compensation of surfaces that face down, below which light cures more than the layer.
+#[derive(Debug, Clone, PartialEq)]
+pub enum Raise {
+    /// By a distance in millimetres.
+    By(f64),
+    /// By as much as the layers above cure below them.
+    Cured(Cure),
+}
+
+/// Lit ranges of rays in the masks.
+pub(super) trait LitRanges {
+    /// Calls `emit(on, off)` for the first lit sublayer and the first dark one above of each range of a ray.
+    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, emit: impl FnMut(u32, u32));
+}
+
+impl LitRanges for SublayerOf {
+    #[inline]
+    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32)) {
+        printed_ranges(hits, classes, |z_in, z_out| {
+            emit(self.first_above(z_in), self.first_above(z_out));
+        });
+    }
+}
+
+impl LitRanges for Entries<'_> {
+    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32)) {
+        self.each(hits, classes, |on, off, _| emit(on, off));
+    }
+}
+
+/// Range of a ray before compensation.
+#[derive(Clone, Copy)]
+struct Lit {
+    on: u32,
+    off: u32,
+    z_in: f32,
+    is_support: bool,
+}
+
+/// Lit ranges whose entries are compensated.
+pub(super) struct Entries<'a> {
+    pub sublayer_of: &'a SublayerOf,
+    /// Sublayers of a layer.
+    pub parts: u32,
+    pub raise: &'a Raise,
+}
+
+impl Entries<'_> {
+    /// Calls `emit(on, off, unraised)` for the lit ranges of a ray: its first sublayer, the first dark one above, and the first one without
+    /// compensation. A range of which compensation leaves nothing has `on >= off`.
+    ///
+    /// Entries in the first layer stay, as nothing cures below the plate, and so do those of a range that is lit up to them.
+    pub fn each(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32, u32)) {
+        let sublayer_of = self.sublayer_of;
+        match self.raise {
+            Raise::By(distance_mm) => {
+                let mut last_off = 0;
+                printed_entries(hits, classes, |z_in, z_out, _| {
+                    let unraised = sublayer_of.first_above(z_in);
+                    let off = sublayer_of.first_above(z_out);
+                    let stays = unraised < self.parts || unraised == last_off;
+                    let on = if stays {
+                        unraised
+                    } else {
+                        sublayer_of.first_above((f64::from(z_in) + distance_mm) as f32)
+                    };
+                    last_off = off;
+                    emit(on, off, unraised);
+                });
+            }
+            Raise::Cured(cure) => self.each_cured(cure, hits, classes, |it| {
+                let on = if it.is_raised {
+                    it.first as u32 * self.parts
+                } else {
+                    it.unraised
+                };
+                emit(on, it.off, it.unraised);
+            }),
+        }
+    }
+
+    /// Calls `emit` for the lit ranges of a ray whose entries make up for cure below them, from the highest down, as light comes from above.
+    pub fn each_cured(
+        &self,
+        cure: &Cure,
+        hits: &[Hit],
+        classes: FacetClasses,
+        mut emit: impl FnMut(&CuredRange),
+    ) {
+        let parts = self.parts;
+        let mut ranges: Vec<Lit> = Vec::new();
+        printed_entries(hits, classes, |z_in, z_out, is_support| {
+            let [on, off] = [z_in, z_out].map(|z_mm| self.sublayer_of.first_above(z_mm));
+            match ranges.last_mut() {
+                Some(last) if on <= last.off => last.off = off.max(last.off),
+                _ if on < off => ranges.push(Lit {
+                    on,
+                    off,
+                    z_in,
+                    is_support,
+                }),
+                _ => {}
+            }
+        });
+        let mut light: Option<Light> = None;
+        for place in (0..ranges.len()).rev() {
+            let it = ranges[place];
+            let mut range = CuredRange {
+                unraised: it.on,
+                off: it.off,
+                unraised_layer: (it.on / parts) as usize,
+                first: (it.on / parts) as usize,
+                // A layer of several heights is lit if most of them are.
+                end: ((it.off + parts / 2) / parts) as usize,
+                z_mm: f64::from(it.z_in),
+                is_raised: false,
+                below: place
+                    .checked_sub(1)
+                    .map(|place| (ranges[place].off / parts) as usize),
+            };
+            if range.first < range.end {
+                range.is_raised = range.first > 0 && !it.is_support;
+                if range.is_raised {
+                    range.first = cure.first_lit(range.first, range.end, light, range.z_mm);
+                }
+                // Most rays have a single range, below which no light matters.
+                if place > 0 {
+                    light = Some(cure.light_below(range.first, range.end, light));
+                }
+            }
+            emit(&range);
+        }
+    }
+}
+
+/// Lit range of a ray whose entry makes up for cure below it.
+pub(super) struct CuredRange {
+    /// Its first sublayer without compensation, and the first dark one above.
+    pub unraised: u32,
+    pub off: u32,
+    /// Its first layer without compensation.
+    pub unraised_layer: usize,
+    /// Its first layer, and the first dark one above.
+    pub first: usize,
+    pub end: usize,
+    /// Height of the model's surface.
+    pub z_mm: f64,
+    /// True if its entry is compensated.
+    pub is_raised: bool,
+    /// The first dark layer above the range below.
+    pub below: Option<usize>,
+}

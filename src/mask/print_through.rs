@@ -1,0 +1,300 @@
+//! Errors of surfaces that face down after cure below layers, and what compensation cannot mend.
+
+use std::ops::Range;
+
+use serde::Serialize;
+
+use super::Samples;
+use super::entries::{CuredRange, Entries, Raise};
+use super::samples::SublayerOf;
+use crate::cure::{Cure, Light};
+use crate::ldi::Ldi;
+use crate::parallel;
+use crate::plan::Plan;
+use crate::progress::{Cancelled, Progress};
+use crate::warning::Warning;
+
+/// Heights of cured surfaces that face down, above those of the model: negative where they are too low.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct BottomErrors {
+    /// Largest distance.
+    pub largest_mm: f64,
+    /// Mean distance.
+    pub mean_mm: f64,
+}
+
+/// Print-through of a plan: errors of surfaces that face down, outside the first layer and supports.
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+pub struct PrintThroughReport {
+    /// Without compensation.
+    pub before: BottomErrors,
+    /// With masks that make up for it.
+    pub after: BottomErrors,
+    /// The largest of `after` where penetration differs by 20 %, overcure by 0.02 mm, and half or all of earlier doses counts.
+    pub within: BottomErrors,
+    /// Area of roofs so thin that their last layer alone cures too deep.
+    pub thin_roofs_mm2: f64,
+    /// The most by which such a roof is too low.
+    pub thin_roofs_mm: f64,
+    /// Area of gaps that light through their roof closes.
+    pub closed_gaps_mm2: f64,
+    /// The first thin roof and the first closed gap, from the middle of their models and above the plate.
+    #[serde(skip)]
+    pub(crate) thin_at_mm: [f64; 3],
+    #[serde(skip)]
+    pub(crate) closed_at_mm: [f64; 3],
+}
+
+/// The least area of roofs and gaps that is worth a warning: half a millimetre square.
+const LEAST_MM2: f64 = 0.25;
+
+/// Rows of a band.
+const BAND_ROWS: usize = 64;
+
+/// The most cures that the same masks are examined under.
+const MOST_CURES: usize = 8;
+
+/// Sums over rays.
+#[derive(Clone, Copy, Default)]
+struct Tally {
+    rays: u64,
+    before: [f64; 2],
+    after: [f64; 2],
+    others: [[f64; 2]; MOST_CURES],
+    thin: u64,
+    thin_mm: f64,
+    closed: u64,
+    /// The first ray of each, and a height.
+    thin_at: Option<(usize, f64)>,
+    closed_at: Option<(usize, f64)>,
+}
+
+fn note([largest_mm, sum_mm]: &mut [f64; 2], error_mm: f64) {
+    *largest_mm = largest_mm.max(error_mm.abs());
+    *sum_mm += error_mm.abs();
+}
+
+impl Tally {
+    fn join(&mut self, other: &Self) {
+        let pairs = [
+            (&mut self.before, other.before),
+            (&mut self.after, other.after),
+        ];
+        let pairs = pairs
+            .into_iter()
+            .chain(self.others.iter_mut().zip(other.others));
+        for ([largest_mm, sum_mm], [its_mm, its_sum_mm]) in pairs {
+            *largest_mm = largest_mm.max(its_mm);
+            *sum_mm += its_sum_mm;
+        }
+        self.rays += other.rays;
+        self.thin += other.thin;
+        self.thin_mm = self.thin_mm.max(other.thin_mm);
+        self.closed += other.closed;
+        self.thin_at = self.thin_at.or(other.thin_at);
+        self.closed_at = self.closed_at.or(other.closed_at);
+    }
+}
+
+/// Measures the masks that make up for a cure, under that cure and under others. The areas are those of one copy of the model.
+///
+/// Cost: linear in hits.
+///
+/// # Errors
+/// [`Cancelled`].
+pub(crate) fn print_through(
+    ldi: &Ldi,
+    plan: &Plan,
+    samples: Samples,
+    cure: &Cure,
+    others: &[Cure],
+    progress: &mut Progress<'_>,
+) -> Result<PrintThroughReport, Cancelled> {
+    let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+    let raise = Raise::Cured(cure.clone());
+    let entries = Entries {
+        sublayer_of: &sublayer_of,
+        parts: samples.sublayers,
+        raise: &raise,
+    };
+    let (width, height) = (ldi.grid.width as usize, ldi.grid.height as usize);
+    let bands = (0..height).step_by(BAND_ROWS);
+    let bands = bands.map(|row| row..(row + BAND_ROWS).min(height));
+    let mut all = Tally::default();
+    parallel::map_in_groups(
+        bands,
+        |rows: Range<usize>| {
+            let mut tally = Tally::default();
+            for ray in rows.start * width..rows.end * width {
+                let mut lights = Lights::default();
+                entries.each_cured(cure, ldi.ray(ray), ldi.classes, |range| {
+                    lights.pass(ray, range, cure, others, &mut tally);
+                });
+            }
+            tally
+        },
+        |tally| {
+            all.join(&tally);
+            Ok::<_, Cancelled>(())
+        },
+        progress,
+        [0.0, 1.0],
+    )?;
+    let errors = |[largest_mm, sum_mm]: [f64; 2], rays: u64| BottomErrors {
+        largest_mm,
+        mean_mm: sum_mm / rays.max(1) as f64,
+    };
+    let mended = all.rays - all.thin;
+    let after = errors(all.after, mended);
+    let at_mm = |at: Option<(usize, f64)>| {
+        let (ray, z_mm) = at.unwrap_or_default();
+        let middle = ldi
+            .grid
+            .centre_mm((ray % width) as u32, (ray / width) as u32);
+        // Hundredths are enough to find a place.
+        [middle.x, middle.y, z_mm].map(|mm| (mm * 100.0).round() / 100.0)
+    };
+    let area_mm2 = |rays: u64| rays as f64 * ldi.grid.pixel_mm2();
+    let within = all
+        .others
+        .iter()
+        .take(others.len())
+        .map(|&it| errors(it, mended));
+    Ok(PrintThroughReport {
+        before: errors(all.before, all.rays),
+        after,
+        within: within.fold(after, BottomErrors::largest),
+        thin_roofs_mm2: area_mm2(all.thin),
+        thin_roofs_mm: all.thin_mm,
+        closed_gaps_mm2: area_mm2(all.closed),
+        thin_at_mm: at_mm(all.thin_at),
+        closed_at_mm: at_mm(all.closed_at),
+    })
+}
+
+impl BottomErrors {
+    pub(crate) fn largest(self, other: Self) -> Self {
+        Self {
+            largest_mm: self.largest_mm.max(other.largest_mm),
+            mean_mm: self.mean_mm.max(other.mean_mm),
+        }
+    }
+}
+
+impl PrintThroughReport {
+    /// The same for several copies.
+    pub(crate) fn of_copies(self, copies: usize) -> Self {
+        Self {
+            thin_roofs_mm2: self.thin_roofs_mm2 * copies as f64,
+            closed_gaps_mm2: self.closed_gaps_mm2 * copies as f64,
+            ..self
+        }
+    }
+
+    /// That of two models: means are the larger ones.
+    pub(crate) fn and(self, other: &Self) -> Self {
+        Self {
+            before: self.before.largest(other.before),
+            after: self.after.largest(other.after),
+            within: self.within.largest(other.within),
+            thin_roofs_mm2: self.thin_roofs_mm2 + other.thin_roofs_mm2,
+            thin_roofs_mm: self.thin_roofs_mm.max(other.thin_roofs_mm),
+            closed_gaps_mm2: self.closed_gaps_mm2 + other.closed_gaps_mm2,
+            thin_at_mm: if self.thin_roofs_mm2 > 0.0 {
+                self.thin_at_mm
+            } else {
+                other.thin_at_mm
+            },
+            closed_at_mm: if self.closed_gaps_mm2 > 0.0 {
+                self.closed_at_mm
+            } else {
+                other.closed_at_mm
+            },
+        }
+    }
+
+    /// The warnings about what compensation cannot mend.
+    pub(crate) fn warnings(&self) -> Vec<Warning> {
+        let mut warnings = Vec::new();
+        if self.thin_roofs_mm2 >= LEAST_MM2 {
+            warnings.push(Warning::ThinRoofs {
+                area_mm2: self.thin_roofs_mm2,
+                deep_mm: self.thin_roofs_mm,
+                at_mm: self.thin_at_mm,
+            });
+        }
+        if self.closed_gaps_mm2 >= LEAST_MM2 {
+            warnings.push(Warning::ClosedGaps {
+                area_mm2: self.closed_gaps_mm2,
+                at_mm: self.closed_at_mm,
+            });
+        }
+        warnings
+    }
+}
+
+/// Light on its way down a ray, under each cure.
+#[derive(Default)]
+struct Lights {
+    before: Option<Light>,
+    after: Option<Light>,
+    others: [Option<Light>; MOST_CURES],
+}
+
+impl Lights {
+    fn pass(
+        &mut self,
+        ray: usize,
+        range: &CuredRange,
+        cure: &Cure,
+        others: &[Cure],
+        tally: &mut Tally,
+    ) {
+        let CuredRange {
+            first, end, z_mm, ..
+        } = *range;
+        if first >= end {
+            return;
+        }
+        if range.is_raised {
+            let unraised = range.unraised_layer;
+            note(
+                &mut tally.before,
+                cure.bottom_mm(unraised, end, self.before) - z_mm,
+            );
+            let bottom_mm = cure.bottom_mm(first, end, self.after);
+            let error_mm = bottom_mm - z_mm;
+            tally.rays += 1;
+            if first + 1 == end && error_mm < -0.5 * cure.thickness_mm(first) {
+                tally.thin += 1;
+                tally.thin_at = tally.thin_at.or(Some((ray, z_mm)));
+                tally.thin_mm = tally.thin_mm.max(-error_mm);
+            } else {
+                note(&mut tally.after, error_mm);
+                for ((other, light), sums) in others.iter().zip(&self.others).zip(&mut tally.others)
+                {
+                    note(sums, other.bottom_mm(first, end, *light) - z_mm);
+                }
+            }
+            if range
+                .below
+                .is_some_and(|below| bottom_mm <= cure.boundary_mm(below))
+            {
+                tally.closed += 1;
+                tally.closed_at = tally.closed_at.or(Some((ray, bottom_mm)));
+            }
+        }
+        if range.below.is_none() {
+            return;
+        }
+        self.before = Some(cure.light_below(range.unraised_layer.min(first), end, self.before));
+        self.after = Some(cure.light_below(first, end, self.after));
+        for (other, light) in others.iter().zip(&mut self.others) {
+            *light = Some(other.light_below(first, end, *light));
+        }
+    }
+}
