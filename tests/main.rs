@@ -5,6 +5,7 @@ mod calibration;
 mod cli;
 mod common;
 mod contours;
+mod cure;
 mod deviation;
 mod docs;
 #[cfg(target_os = "linux")]

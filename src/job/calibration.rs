@@ -1,4 +1,5 @@
-//! Prints that measure a printer: whether it prints layers of several thicknesses, and which exposure each thickness needs.
+//! Prints that measure a printer: whether it prints layers of several thicknesses, which exposure each thickness needs, and how deep
+//! layers cure below themselves.
 
 use std::io::Write;
 use std::sync::Arc;
@@ -11,9 +12,11 @@ use super::stages::stage::StageProgress;
 use super::{Backend, Error, Job, JobOptions, LoadedModel, Options, Report, Snap};
 use crate::archive::ArchiveError;
 use crate::format::{Format, FormatThicknesses};
+use crate::growth::Growth;
 use crate::plan::HeightRange;
 use crate::printer::{PrinterChoice, VariableLayers};
 use crate::quantity::Quantity;
+use crate::resin::Resin;
 
 /// A print that measures a printer: a model made for it, its layers and their exposures.
 #[derive(Debug, Clone)]
@@ -54,10 +57,21 @@ const TOWERS_MM: [f64; 2] = [0.05, 0.1];
 const SIDE_MM: f32 = 10.0;
 /// Distance between the middles of towers of the exposure test in millimetres.
 const PITCH_MM: f32 = 12.0;
+/// Length and width of a bridge, side of its posts, distance of rows of bridges, and thickness of the base below, in millimetres.
+const SPAN_MM: f32 = 8.0;
+const BRIDGE_MM: f32 = 3.0;
+const POST_MM: f32 = 3.0;
+const ROW_MM: f32 = 12.0;
+const BASE_MM: f32 = 1.0;
+/// Height of the lower row of bridges, and of the upper one above it: jaws of a caliper reach below.
+const RISE_MM: [f64; 2] = [5.0, 1.5];
 /// Widths of ridges and slots in millimetres.
 const WIDTHS_MM: [f32; 4] = [0.1, 0.2, 0.3, 0.4];
 
 impl Calibration {
+    /// Numbers of layers of the bridges of [`Self::cure`], from the left.
+    pub const BRIDGES: [u8; 6] = [1, 2, 3, 4, 6, 8];
+
     /// Two towers side by side: both have ten layers of 50 µm, and one goes on with ten of 100 µm. They are 0.5 and 1.5 mm high
     /// if the printer moves to the height of each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one thickness for all.
     ///
@@ -141,6 +155,69 @@ impl Calibration {
             }));
         }
         Ok(calibration)
+    }
+
+    /// Bridges of 1, 2, 3, 4, 6 and 8 layers over nothing, from the left, numbered: in front of the first thickness, behind of the second.
+    /// Measured with a caliper, they say how deep layers cure below themselves ([`crate::cure::fit`]).
+    ///
+    /// # Errors
+    /// [`Error::Options`] if the printer is unknown; [`Error::Plan`] for a thickness out of bounds.
+    pub fn cure(options: &Options, thickness_mm: [f64; 2]) -> Result<Self, Error> {
+        for layer_mm in thickness_mm {
+            let checked = Quantity::Layer.check(layer_mm);
+            checked.map_err(crate::plan::PlanError::from)?;
+        }
+        let most = usize::from(Self::BRIDGES[Self::BRIDGES.len() - 1]);
+        let layers_in = |height_mm: f64| (height_mm / thickness_mm[0]).ceil() as usize;
+        let [first, between] = RISE_MM.map(layers_in);
+        let lower = Section {
+            from_mm: 0.0,
+            layer_mm: thickness_mm[0],
+            layers: first + most + between,
+            exposure_s: None,
+        };
+        let upper = Section {
+            from_mm: lower.to_mm(),
+            layer_mm: thickness_mm[1],
+            layers: most,
+            exposure_s: None,
+        };
+        let step_mm = SPAN_MM + POST_MM;
+        let length_mm = Self::BRIDGES.len() as f32 * step_mm + POST_MM;
+        let mut boxes = vec![[Vec3::ZERO, Vec3::new(length_mm, 2.0 * ROW_MM, BASE_MM)]];
+        let bottoms_mm = [first as f64 * thickness_mm[0], upper.from_mm];
+        for (row, (layer_mm, bottom_mm)) in thickness_mm.into_iter().zip(bottoms_mm).enumerate() {
+            let y = row as f32 * ROW_MM + ROW_MM / 2.0;
+            let z = |layers: u8| (bottom_mm + layer_mm * f64::from(layers)) as f32;
+            for post in 0..=Self::BRIDGES.len() {
+                let x = post as f32 * step_mm;
+                let top = Vec3::new(x + POST_MM, y + BRIDGE_MM, z(most as u8));
+                boxes.push([Vec3::new(x, y, 0.0), top]);
+            }
+            for (place, layers) in Self::BRIDGES.into_iter().enumerate() {
+                let x = place as f32 * step_mm;
+                let end = x + step_mm + POST_MM;
+                let top = Vec3::new(end, y + BRIDGE_MM, z(layers));
+                boxes.push([Vec3::new(x, y, z(0)), top]);
+                add_digit(
+                    &mut boxes,
+                    Vec3::new(x + step_mm / 2.0, y - 4.5, BASE_MM),
+                    layers,
+                );
+            }
+        }
+        let uncompensated = Options {
+            resin: Resin {
+                print_through: None,
+                growth: Growth {
+                    z_mm: 0.0,
+                    ..options.resin.growth
+                },
+                ..options.resin.clone()
+            },
+            ..options.clone()
+        };
+        Self::new(boxes, vec![lower, upper], &uncompensated)
     }
 
     fn new(
@@ -237,6 +314,36 @@ impl Calibration {
         job.expose(0, exposure_s)?;
         let (writer, report) = job.write_archive(0, writer, progress)?;
         Ok((writer, report.clone()))
+    }
+}
+
+/// A raised digit of seven segments, from the corner at its left and front.
+fn add_digit(boxes: &mut Vec<[Vec3; 2]>, corner: Vec3, digit: u8) {
+    // Width of a segment, and its length, in millimetres.
+    const WIDTH_MM: f32 = 0.5;
+    const LENGTH_MM: f32 = 1.5;
+    // Top, upper right, lower right, bottom, lower left, upper left, middle: the places of two corners in lengths.
+    const SEGMENTS: [[[f32; 2]; 2]; 7] = [
+        [[0.0, 2.0], [1.0, 2.0]],
+        [[1.0, 1.0], [1.0, 2.0]],
+        [[1.0, 0.0], [1.0, 1.0]],
+        [[0.0, 0.0], [1.0, 0.0]],
+        [[0.0, 0.0], [0.0, 1.0]],
+        [[0.0, 1.0], [0.0, 2.0]],
+        [[0.0, 1.0], [1.0, 1.0]],
+    ];
+    const LIT: [u8; 10] = [
+        0b011_1111, 0b000_0110, 0b101_1011, 0b100_1111, 0b110_0110, 0b110_1101, 0b111_1101,
+        0b000_0111, 0b111_1111, 0b110_1111,
+    ];
+    let lit = LIT[usize::from(digit % 10)];
+    for (segment, [from, to]) in SEGMENTS.into_iter().enumerate() {
+        if lit >> segment & 1 == 1 {
+            let at = |[x, y]: [f32; 2]| corner + Vec3::new(x * LENGTH_MM, y * LENGTH_MM, 0.0);
+            // Into the base, so that they are one body.
+            let low = at(from) - Vec3::Z * WIDTH_MM;
+            boxes.push([low, at(to) + Vec3::splat(WIDTH_MM)]);
+        }
     }
 }
 

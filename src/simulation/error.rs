@@ -41,6 +41,14 @@ pub enum SimulationError {
         /// Its top.
         z_mm: f64,
     },
+    /// A layer without an exposure, where cure below layers is simulated.
+    #[error(
+        "its layer {layer} states no exposure, which says how deep it cures; convert it to a format that does"
+    )]
+    NoExposure {
+        /// Number of the layer, from 1.
+        layer: usize,
+    },
     /// No pixel of any mask is lit.
     #[error("no pixel of its masks is lit, so it prints nothing; slice the model again")]
     AllBlack,

@@ -10,8 +10,9 @@
 //! do, and print files by [`crate::archive::read`].
 //!
 //! Both distances may be off by up to half a pixel's diagonal, because that is what masks resolve. Grey pixels count as
-//! printed from half brightness on.
+//! printed from half brightness on. With a resin that states its print-through, layers also cure below their bottoms ([`Knowledge::cure`]).
 
+mod cured;
 mod deviation;
 mod error;
 mod hidden;
@@ -31,6 +32,7 @@ use crate::format::Format;
 use crate::model::read::Contents;
 use crate::model::{FacetClass, Mesh, MeshError, ModelUnit, Pose, TURNS};
 use crate::progress::{Progress, report};
+use crate::resin::Resin;
 use deviation::Tally;
 use hidden::Visibility;
 use nearest::Facets;
@@ -45,6 +47,8 @@ pub struct Knowledge {
     pub copies: Vec<PrintedCopy>,
     /// True if the masks are mirrored left to right.
     pub is_mirrored: Option<bool>,
+    /// A resin, by whose print-through the layers cure deeper than they are thick.
+    pub cure: Option<Resin>,
 }
 
 /// A model in the frame of its file.
@@ -151,6 +155,17 @@ pub fn simulate(
     } else {
         place(&mut printed, &mesh)
     };
+    if let Some(resin) = &knowledge.cure
+        && let Some(print_through) = &resin.print_through
+    {
+        let layers = file.layers().iter().enumerate();
+        let exposures_s = layers.map(|(layer, it)| {
+            let exposure_s = it.exposure_s;
+            exposure_s.ok_or(SimulationError::NoExposure { layer: layer + 1 })
+        });
+        let exposures_s: Vec<f64> = exposures_s.collect::<Result<_, _>>()?;
+        printed = cured::cured(printed, &exposures_s, resin, print_through);
+    }
 
     let mut facets = Facets::of(&mesh);
     let visibility = hidden::classify(&mesh, &facets, progress, [0.2, 0.3])?;

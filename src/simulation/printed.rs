@@ -69,6 +69,16 @@ impl Printed {
         })
     }
 
+    /// The same place with other layers, between these heights.
+    pub fn with_layers(self, z_mm: Vec<f64>, masks: Vec<Mask>) -> Self {
+        Self {
+            steps: steps_of(&z_mm),
+            z_mm,
+            masks,
+            ..self
+        }
+    }
+
     /// The middle of the lit pixels' bounding box.
     pub fn lit_centre(&self) -> DVec2 {
         let (mut low, mut high) = (DVec2::INFINITY, DVec2::NEG_INFINITY);

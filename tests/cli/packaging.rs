@@ -38,7 +38,7 @@ fn every_command_has_a_manual_page() {
         .collect();
     assert!(expected.len() >= 15, "{expected:?}");
     expected.push("cusp.1".to_owned());
-    for calibration in ["layers", "exposure", "resin"] {
+    for calibration in ["layers", "exposure", "cure", "resin"] {
         expected.push(format!("cusp-calibrate-{calibration}.1"));
     }
     expected.sort();

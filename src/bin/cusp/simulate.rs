@@ -12,6 +12,7 @@ use cusp_slicer::simulation::{
 };
 
 use crate::failure::{Failure, in_file};
+use crate::files::read_resin;
 use crate::job_file::{JobFile, within};
 use crate::progress::Bar;
 use crate::terminal::{print, print_json};
@@ -45,6 +46,9 @@ pub struct Simulating {
     /// True if the masks are mirrored left to right [default: as the print file says]
     #[arg(long, value_name = "BOOL")]
     mirror: Option<bool>,
+    /// Cure below layers by the `print_through` of this resin, a JSON file, and the exposures of the print file
+    #[arg(long, value_name = "RESIN.json")]
+    cure: Option<PathBuf>,
 }
 
 /// The models to measure, as they are in their files.
@@ -112,17 +116,30 @@ impl Originals {
 
 impl Simulating {
     /// Knowledge besides the print file.
-    fn knowledge(&self, copies: Vec<PrintedCopy>) -> Knowledge {
+    fn knowledge(&self, copies: Vec<PrintedCopy>) -> Result<Knowledge, Failure> {
         let pose = Pose {
             rotation: self.rotation,
             height_mm: self.height,
             unit: self.unit,
         };
-        Knowledge {
+        let cure = self.cure.as_deref().map(|path| {
+            let resin = read_resin(Some(path))?;
+            resin.check().map_err(|error| in_file(path, &error))?;
+            if resin.print_through.is_none() {
+                return Err(in_file(
+                    path,
+                    &"the resin has no `print_through`, which --cure needs",
+                )
+                .into());
+            }
+            Ok::<_, Failure>(resin)
+        });
+        Ok(Knowledge {
             pose: (pose != Pose::default()).then_some(pose),
             copies,
             is_mirrored: self.mirror,
-        }
+            cure: cure.transpose()?,
+        })
     }
 }
 
@@ -133,7 +150,7 @@ pub fn simulate(simulating: &Simulating) -> Result<(), Failure> {
     stop_on_interrupt();
     let bar = Bar::new();
     let mut progress = |fraction| bar.show("simulate", fraction);
-    let knowledge = simulating.knowledge(std::mem::take(&mut originals.copies));
+    let knowledge = simulating.knowledge(std::mem::take(&mut originals.copies))?;
     let simulation = measure(&originals.models, &printed, &knowledge, &mut progress);
     let simulation = simulation.map_err(|error| match error {
         SimulationError::Cancelled(_) => Failure::interrupted(),

@@ -1,0 +1,160 @@
+//! The print with cure below its layers: doses of all lit layers above a point add up.
+//!
+//! Doses are summed layer by layer, so no code is shared with the recurrences that masks and plans are made with.
+
+use std::collections::BTreeMap;
+
+use super::printed::Printed;
+use crate::archive::read::Mask;
+use crate::parallel;
+use crate::resin::{PrintThrough, Resin};
+
+/// Heights of cured bottoms are rounded to multiples of this.
+const STEP_MM: f64 = 0.005;
+
+/// Depth, in penetration depths, at which light counts as none.
+const FAR: f64 = 30.0;
+
+/// Columns of a row that become lit or dark, by heights in steps.
+type Changes = BTreeMap<u64, Vec<u16>>;
+
+/// The print by the exposures of its layers, each as deep as it cures.
+pub(super) fn cured(
+    printed: Printed,
+    exposures_s: &[f64],
+    resin: &Resin,
+    print_through: &PrintThrough,
+) -> Printed {
+    let doses = Doses {
+        planes_mm: &printed.z_mm,
+        exposures_s,
+        resin,
+        print_through,
+    };
+    let rows: Vec<usize> = (0..printed.pixels[1] as usize).collect();
+    let changes = parallel::map(rows, |row| of_row(&printed, row as i32, &doses));
+    let mut heights: Vec<u64> = changes.iter().flat_map(|it| it.keys().copied()).collect();
+    heights.sort_unstable();
+    heights.dedup();
+    let mut lit: Vec<Vec<u16>> = vec![Vec::new(); changes.len()];
+    let mut masks = Vec::with_capacity(heights.len());
+    for height in &heights {
+        for (lit, changes) in lit.iter_mut().zip(&changes) {
+            for &column in changes.get(height).into_iter().flatten() {
+                for side in [column, column + 1] {
+                    match lit.binary_search(&side) {
+                        Ok(place) => drop(lit.remove(place)),
+                        Err(place) => lit.insert(place, side),
+                    }
+                }
+            }
+        }
+        masks.push(Mask::of_rows(lit.iter().map(Vec::as_slice)));
+    }
+    // Nothing is lit above the last height.
+    masks.pop();
+    let z_mm = heights.iter().map(|&height| height as f64 * STEP_MM);
+    printed.with_layers(z_mm.collect(), masks)
+}
+
+/// Doses of a print's layers.
+struct Doses<'a> {
+    planes_mm: &'a [f64],
+    exposures_s: &'a [f64],
+    resin: &'a Resin,
+    print_through: &'a PrintThrough,
+}
+
+impl Doses<'_> {
+    /// Dose of a layer at a height below its top, in critical doses.
+    fn of(&self, layer: usize, z_mm: f64) -> f64 {
+        let resin = self.resin;
+        let reference_mm = resin.layer_mm + self.print_through.overcure_mm;
+        let depth_mm = self.planes_mm[layer + 1] - z_mm;
+        let part = self.exposures_s[layer] / resin.exposure_s(resin.layer_mm);
+        part * ((reference_mm - depth_mm) / resin.penetration_mm).exp()
+    }
+
+    /// The cured bottom of the lowest of a column's lit ranges, given with those above it, all from the highest down.
+    fn bottom_mm(&self, ranges: &[[usize; 2]]) -> f64 {
+        let Some(&[lowest, _]) = ranges.last() else {
+            return 0.0;
+        };
+        let z_mm = self.planes_mm[lowest];
+        if lowest == 0 {
+            return z_mm;
+        }
+        let own = self.of(lowest, z_mm);
+        let far_mm = z_mm + FAR * self.resin.penetration_mm;
+        let layers = ranges.iter().rev().flat_map(|&[from, to]| from..to);
+        let others = layers
+            .skip(1)
+            .take_while(|&layer| self.planes_mm[layer] < far_mm);
+        let earlier: f64 = others.map(|layer| self.of(layer, z_mm)).sum();
+        let dose = own + self.print_through.retained * earlier;
+        z_mm - self.resin.penetration_mm * dose.ln()
+    }
+}
+
+/// Where the pixels of a row become lit and dark.
+fn of_row(printed: &Printed, row: i32, doses: &Doses<'_>) -> Changes {
+    let mut columns: BTreeMap<u16, Vec<[usize; 2]>> = BTreeMap::new();
+    let mut below: &[u16] = &[];
+    for layer in 0..=printed.layers() {
+        let here = printed
+            .masks
+            .get(layer)
+            .map_or(&[][..], |mask| mask.row(row));
+        if here == below {
+            continue;
+        }
+        let is_lit =
+            |changes: &[u16], column: u16| changes.partition_point(|&it| it <= column) % 2 == 1;
+        let ends = here.iter().chain(below);
+        let (first, last) = (ends.clone().min(), ends.max());
+        for column in first.copied().unwrap_or(0)..last.copied().unwrap_or(0) {
+            match (is_lit(below, column), is_lit(here, column)) {
+                (false, true) => columns.entry(column).or_default().push([layer, layer]),
+                (true, false) => {
+                    let ranges = columns.get_mut(&column);
+                    if let Some(range) = ranges.and_then(|it| it.last_mut()) {
+                        range[1] = layer;
+                    }
+                }
+                _ => {}
+            }
+        }
+        below = here;
+    }
+    let mut changes = Changes::new();
+    for (column, mut ranges) in columns {
+        ranges.reverse();
+        // The height down to which the column is solid so far.
+        let mut solid: Option<u64> = None;
+        for place in 0..ranges.len() {
+            let top = steps(doses.planes_mm[ranges[place][1]]);
+            let bottom = steps(doses.bottom_mm(&ranges[..=place]).max(0.0));
+            match solid {
+                // Light closes the gap.
+                Some(low) if low <= top => {}
+                Some(low) => {
+                    changes.entry(low).or_default().push(column);
+                    changes.entry(top).or_default().push(column);
+                }
+                None => changes.entry(top).or_default().push(column),
+            }
+            solid = Some(solid.map_or(
+                bottom,
+                |low| if low <= top { low.min(bottom) } else { bottom },
+            ));
+        }
+        if let Some(low) = solid {
+            changes.entry(low).or_default().push(column);
+        }
+    }
+    changes
+}
+
+fn steps(z_mm: f64) -> u64 {
+    (z_mm / STEP_MM).round() as u64
+}
