@@ -45,6 +45,7 @@ export type {
   Snap,
   StlExpected,
   SupportPoint,
+  PrintThroughReport,
   SupportProfile,
   SupportStrength,
   ThreeMfFeature,

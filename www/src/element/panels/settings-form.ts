@@ -21,7 +21,7 @@ import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 /** Settings that are initially hidden, unless one differs from its default. */
-const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers"] as const;
+const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayers", "penetration", "overcure", "retained"] as const;
 const SIZES = [...SIZE_FIELDS, "raft", "supportLayer"] as const;
 
 /** The fields of a form: all, or those of one step of the workbench. */
@@ -210,7 +210,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   }
 
   /** What the resin has of its own, to be used unless another value is typed. */
-  get #cure(): Required<Resin> {
+  get #cure(): Required<Omit<Resin, "print_through">> & Pick<Resin, "print_through"> {
     return { ...FACTS.defaults.resin, ...this.offered.resins.find(({ name }) => name === this.settings.resin) };
   }
 
@@ -261,13 +261,27 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           ? html`<div class="pair">
               ${this.#field("bottomLayers", words.bottomLayers, { placeholder: String(bottom_layers) })}
               ${this.#field("bottomExposure", words.bottomExposure, { placeholder: String(bottom_exposure_s) })}
-            </div>`
+            </div>
+            ${this.#printThrough()}`
           : nothing}
         ${this.settings.printer === "" || this.fixed.has("printer")
           ? nothing
           : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
       </div>
     </details>`;
+  }
+
+  /** Cure below layers. The depths of the law appear once there is an overcure. */
+  #printThrough(): TemplateResult {
+    const words = this.language.texts.settings;
+    const { penetration_mm, print_through } = this.#cure;
+    const field = this.#field("overcure", words.overcure, { hint: words.overcureHint, placeholder: String(print_through?.overcure_mm ?? "") });
+    if (this.settings.overcure.trim() === "" && !print_through) return field;
+    return html`${field}
+      <div class="pair">
+        ${this.#field("penetration", words.penetration, { placeholder: String(penetration_mm) })}
+        ${this.#field("retained", words.retained, { placeholder: String(print_through?.retained ?? 1) })}
+      </div>`;
   }
 
   #supports(): TemplateResult {

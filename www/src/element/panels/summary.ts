@@ -1,6 +1,7 @@
 /** Figures of a result: layers, print time, savings, and a comparison with uniform layers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../../api/facts.js";
+import type { PrintThroughReport } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
 import { METRICS } from "../state/metric.js";
@@ -222,6 +223,10 @@ export function details({ report }: Result, { texts: { details: words }, format 
   const { mask, metric, timings_ms } = report;
   const error = (value: number): string => METRICS[metric].error(value, format);
   const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
+  const undersides = ({ before, after }: PrintThroughReport): string => {
+    const [mean, largest, off] = [after.mean_mm, after.largest_mm, before.mean_mm].map((mm) => format.error("deviation", mm)) as [string, string, string];
+    return words.undersidesOff({ mean, largest, before: off });
+  };
   const method = report.gpu_method === "fill" || report.gpu_method === "peel" ? words.methods[report.gpu_method] : null;
   const how = [report.adapter, method].filter((part) => part !== null).join(", ");
   const ran = report.backend !== "gpu" ? words.cpu : how === "" ? words.gpu.bare : words.gpu.how({ how });
@@ -233,6 +238,7 @@ export function details({ report }: Result, { texts: { details: words }, format 
       ${report.true_error === report.max_error ? nothing : fact(words.trueError, error(report.true_error))}
       ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
       ${metric === "deviation" ? nothing : fact(words.deviation, format.error("deviation", report.max_deviation_mm))}
+      ${report.print_through ? fact(words.undersides, undersides(report.print_through)) : nothing}
       ${fact(words.flats, format.count(report.snapped_mm.length))}
       ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
       ${fact(words.overhead, format.seconds(report.overhead_s))}

@@ -112,6 +112,9 @@ const CHANGES: { readonly [Key in keyof Settings]: readonly [change: Settings[Ke
   exposure: ["4", false],
   bottomExposure: ["40", false],
   bottomLayers: ["6", false],
+  penetration: ["0.12", false],
+  overcure: ["0.02", false],
+  retained: ["0.5", false],
   tolerances: [{ cusp: "0.05" }, false],
 };
 

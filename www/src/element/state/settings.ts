@@ -24,11 +24,15 @@ interface Lengths {
   supportLayer: string;
 }
 
-/** Exposures in s and a count, likewise; empty for the resin's own. */
+/** Exposures in s, a count, depths in mm and a fraction, likewise; empty for the resin's own. */
 interface Curing {
   exposure: string;
   bottomExposure: string;
   bottomLayers: string;
+  penetration: string;
+  /** If given, masks and planes make up for print-through. */
+  overcure: string;
+  retained: string;
 }
 
 /** Settings chosen from a list. */
@@ -143,6 +147,9 @@ export const DEFAULT_SETTINGS: Settings = {
   exposure: "",
   bottomExposure: "",
   bottomLayers: "",
+  penetration: "",
+  overcure: "",
+  retained: "",
   tolerances: {},
 };
 
@@ -216,6 +223,9 @@ const UNITS: Readonly<Record<keyof Lengths | keyof Sizes | keyof Curing, FieldUn
   exposure: "s",
   bottomExposure: "s",
   bottomLayers: "",
+  penetration: "mm",
+  overcure: "mm",
+  retained: "",
 };
 
 const NUMBERS = Object.keys(UNITS) as (keyof typeof UNITS)[];
@@ -325,6 +335,7 @@ const THICKEST_WALL_MM = 50;
 const [NARROWEST_NOZZLE_MM, WIDEST_NOZZLE_MM] = FACTS.nozzles_mm;
 const LONGEST_S = 600;
 const MOST_BOTTOM_LAYERS = 100;
+const PENETRATION_MM = [0.01, 2] as const;
 
 const NONE: Offered = { printers: [], resins: [] };
 
@@ -417,6 +428,9 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     const layers = (resin.bottom_layers = within("bottomLayers", settings.bottomLayers, 0, MOST_BOTTOM_LAYERS));
     if (!Number.isInteger(layers)) faults.bottomLayers ??= { kind: "whole" };
   }
+  if (settings.penetration.trim() !== "") resin.penetration_mm = within("penetration", settings.penetration, ...PENETRATION_MM);
+  if (settings.overcure.trim() !== "") resin.print_through = { ...resin.print_through, overcure_mm: within("overcure", settings.overcure, 0, 1) };
+  if (resin.print_through && settings.retained.trim() !== "") resin.print_through.retained = within("retained", settings.retained, 0, 1);
   if (Object.keys(resin).length > 0) options.resin = resin;
 
   const rotation = quaternion(settings.rotation);
