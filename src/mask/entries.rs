@@ -75,7 +75,7 @@ impl Entries<'_> {
                     emit(on, off, unraised);
                 });
             }
-            Raise::Cured(cure) => self.each_cured(cure, hits, classes, |it| {
+            Raise::Cured(cure) => self.each_cured(cure, hits, classes, &mut |it| {
                 let on = if it.is_raised {
                     it.first as u32 * self.parts
                 } else {
@@ -92,7 +92,7 @@ impl Entries<'_> {
         cure: &Cure,
         hits: &[Hit],
         classes: FacetClasses,
-        mut emit: impl FnMut(&CuredRange),
+        emit: &mut dyn FnMut(&CuredRange),
     ) {
         let parts = self.parts;
         let mut ranges: Vec<Lit> = Vec::new();

@@ -131,7 +131,7 @@ pub(crate) fn print_through(
             let mut tally = Tally::default();
             for ray in rows.start * width..rows.end * width {
                 let mut lights = Lights::default();
-                entries.each_cured(cure, ldi.ray(ray), ldi.classes, |range| {
+                entries.each_cured(cure, ldi.ray(ray), ldi.classes, &mut |range| {
                     lights.pass(ray, range, cure, others, &mut tally);
                 });
             }

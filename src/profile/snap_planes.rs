@@ -1,8 +1,6 @@
 //! Heights that deserve a plane (section 3.3): flats, so that they print at their true height, and sharp changes of the
 //! profile.
 
-use std::collections::BTreeSet;
-
 use super::cusp::density_of;
 use super::facet_bins::Flat;
 use super::steepest::NO_SURFACE;
@@ -50,7 +48,7 @@ pub fn raised_planes(
                 .filter(|&(_, area_mm2)| area_mm2 >= flat_area_mm2),
         );
         let pairs = surface.flats.iter().zip(&raised_flats);
-        let moved: BTreeSet<u32> = pairs
+        let moved: Vec<u32> = pairs
             .filter(|(flat, raised)| flat.boundary != raised.boundary)
             .map(|(flat, _)| flat.boundary)
             .collect();

@@ -439,3 +439,62 @@ fn a_cup_pulls_like_a_solid_until_it_is_vented() {
     let vented = frame(10.0, 3.0, 0.0, 2.0);
     assert_pull(vented, pull_n(400.0 - 81.0, 80.0 + 36.0));
 }
+
+#[test]
+fn a_level_edge_is_held_in_its_first_layer() {
+    // A keel: both of its sides rise by 9°, so that contacts beside the edge begin layers later.
+    let keel = solids::profiled(&[[0.0, 0.0], [12.0, 2.0], [-12.0, 2.0]], 30.0);
+    let (report, _) = print(&keel, &supported());
+    let supported = report.models[0].supported.clone().unwrap();
+    let points = supported.points.iter().filter(|it| it.at_mm[2] <= 0.05);
+    let mut along_mm: Vec<f64> = points.map(|it| it.at_mm[1]).collect();
+    along_mm.extend([-15.0, 15.0]);
+    along_mm.sort_by(f64::total_cmp);
+    let spacing_mm = SupportStrength::Medium.profile().spacing_mm;
+    for pair in along_mm.windows(2) {
+        assert!(pair[1] - pair[0] <= 2.0 * spacing_mm, "{along_mm:?}");
+    }
+    assert!(along_mm.len() > 6, "{along_mm:?}");
+    let load = supported.load.unwrap();
+    assert!(load.newtons <= 1.01 * load.limit_n, "{load:?}");
+}
+
+#[test]
+fn the_film_is_the_printers_unless_sizes_state_one() {
+    let slab = solids::cuboid(Vec3::new(12.0, 12.0, 3.0));
+    let load_n = |printer_kpa: Option<f64>, own_kpa: Option<f64>| {
+        let printer = serde_json::json!({
+            "pixels": [400, 400], "pitch_um": [100, 100], "volume_mm": [40, 40, 100], "film_kpa": printer_kpa,
+        });
+        let profile = SupportProfile {
+            film_kpa: own_kpa,
+            tip_mpa: 50.0,
+            ..SupportProfile::default()
+        };
+        let options = Options {
+            printer: Some(serde_json::from_value(printer).unwrap()),
+            supports: Some(Supporting {
+                profile: Some(profile),
+                ..Supporting::default()
+            }),
+            pitch_mm: None,
+            ..Options::default()
+        };
+        let report = plan(&mut load(&slab), &options);
+        report.models[0]
+            .supported
+            .clone()
+            .unwrap()
+            .load
+            .unwrap()
+            .newtons
+    };
+    let usual_n = load_n(None, None);
+    for (printer_kpa, own_kpa, times) in [
+        (Some(30.0), None, 2.0),
+        (Some(30.0), Some(7.5), 0.5),
+        (None, Some(30.0), 2.0),
+    ] {
+        assert_near(load_n(printer_kpa, own_kpa), times * usual_n, 1e-3);
+    }
+}

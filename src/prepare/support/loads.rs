@@ -3,8 +3,6 @@
 //! A piece is taken for rigid and its contacts for springs as stiff as they are large, so loads are linear in x and y, and their sum
 //! and their moment are those of the pull. What stands on the plate holds as well.
 
-use std::collections::BTreeMap;
-
 use glam::{DVec2, DVec3};
 
 use super::SupportProfile;
@@ -280,32 +278,35 @@ impl<'a> Loads<'a> {
             // Resin that the film closes in cannot follow: a cup pulls like a solid.
             let cups = pieces.enclosed(&mut dark);
             // Pieces that stand on the plate, by their roots.
-            let mut by_root: BTreeMap<u32, Springs> = BTreeMap::new();
+            let mut by_root: Vec<(u32, Springs)> = Vec::new();
             for (stretch, springs) in &standing {
                 let root = pieces.root(*stretch as usize);
-                by_root.entry(root).or_default().join(springs);
-            }
-            standing = by_root
-                .iter()
-                .map(|(&root, &springs)| (root, springs))
-                .collect();
-            let root_of = |pieces: &mut Pieces<'_>, contact: &Contact, stretch: Option<usize>| {
-                let below = stretch.filter(|_| contact.at.z < z_mm);
-                below.map(|it| pieces.root(it))
-            };
-            let mut held_by: BTreeMap<u32, Vec<usize>> = BTreeMap::new();
-            for (place, (contact, &stretch)) in contacts.iter().zip(&stretches).enumerate() {
-                if let Some(root) = root_of(&mut pieces, contact, stretch) {
-                    held_by.entry(root).or_default().push(place);
+                match by_root.iter_mut().find(|it| it.0 == root) {
+                    Some((_, sum)) => sum.join(springs),
+                    None => by_root.push((root, *springs)),
                 }
             }
+            standing = by_root;
+            let roots = contacts.iter().zip(&stretches);
+            let roots = roots.map(|(contact, &stretch)| {
+                let below = stretch.filter(|_| contact.at.z < z_mm);
+                below.map(|it| pieces.root(it))
+            });
+            let roots: Vec<Option<u32>> = roots.collect();
             for (root, mut region) in pieces.regions() {
                 for (_, cup) in cups.iter().filter(|it| it.0 == root) {
                     region.fill(cup);
                 }
-                let Some(held_by) = held_by.get_mut(&root) else {
+                let all = roots.iter().enumerate();
+                let mut held_by: Vec<usize> = all
+                    .filter(|it| *it.1 == Some(root))
+                    .map(|it| it.0)
+                    .collect();
+                if held_by.is_empty() {
                     continue;
-                };
+                }
+                let own = standing.iter().find(|it| it.0 == root);
+                let own = own.map(|it| it.1).unwrap_or_default();
                 let (area_mm2, perimeter_mm) =
                     (region.area_mm2(pitch_mm), region.perimeter_mm(pitch_mm));
                 loop {
@@ -314,7 +315,7 @@ impl<'a> Loads<'a> {
                         z_mm,
                         force_n: peel_n(area_mm2, perimeter_mm, self.profile.film_kpa()),
                         middle: region.middle(),
-                        standing: by_root.get(&root).copied().unwrap_or_default(),
+                        standing: own,
                         contacts: held_by.clone(),
                     };
                     let Some(added) = each(&mut pieces, pull, contacts) else {

@@ -2,7 +2,7 @@
 import type { Limits, Prices, Resin } from "cusp-slicer";
 
 /** A resin with every value that determines print time and exposure, so that a plan cannot set its own. */
-export interface ShopResin extends Required<Resin> {
+export interface ShopResin extends Required<Omit<Resin, "print_through">> {
   /** Description for customers: the resin's use. */
   note: string;
   /** CSS class of its swatch. */

@@ -58,8 +58,8 @@ export type {
   XmlFault,
 } from "../../pkg/cusp_slicer.js";
 
-/** A built-in printer. Its description is complete, except for `machine` and `file_version`, which few have. */
-export type KnownPrinter = Printer & Required<Omit<Printer, "machine" | "file_version">>;
+/** A built-in printer. Its description is complete, except for `machine`, `file_version` and `film_kpa`, which few have. */
+export type KnownPrinter = Printer & Required<Omit<Printer, "machine" | "file_version" | "film_kpa">>;
 
 /** Called as a stage advances: `fraction` is 0 to 1 within the stage, `done` within the whole task. */
 export type OnProgress = (stage: Stage, fraction: number, done: number) => void;
