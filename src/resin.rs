@@ -244,7 +244,7 @@ fn through(low: [f64; 2], high: [f64; 2], thickness_mm: f64) -> f64 {
 }
 
 /// The natural logarithm of a positive number, by basic arithmetic and square roots alone.
-#[inline(never)]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 pub(crate) fn ln(x: f64) -> f64 {
     const HALVINGS: i32 = 5;
     let root = (0..HALVINGS).fold(x, |root, _| root.sqrt());
@@ -260,7 +260,7 @@ pub(crate) fn ln(x: f64) -> f64 {
 }
 
 /// e to the power of x, by basic arithmetic alone: libraries differ in the last digits, which would make plans differ.
-#[inline(never)]
+#[cfg_attr(target_arch = "wasm32", inline(never))]
 pub(crate) fn exp(x: f64) -> f64 {
     const HALVINGS: i32 = 10;
     // The series is accurate to the last digits for |small| below about 1/20. Beyond, e to the power of x times any exposure is

@@ -23,7 +23,7 @@ pub struct Surface<'a> {
 /// at least `flat_area_mm2`, by area; then changes of a model's cusp height density by more than [`SHARP`], by size. Of several
 /// models the largest area and the largest change count, so that neither copies nor other models make a plane.
 pub fn snap_planes(surfaces: &[Surface<'_>], bins: Bins, flat_area_mm2: f64) -> Vec<u32> {
-    raised_planes(surfaces, bins, flat_area_mm2, |boundary| boundary)
+    raised_planes(surfaces, bins, flat_area_mm2, None)
 }
 
 /// The same where flats that face down have their planes where `raised` puts them: there light cures down to them. Their sharp changes have
@@ -32,26 +32,31 @@ pub fn raised_planes(
     surfaces: &[Surface<'_>],
     bins: Bins,
     flat_area_mm2: f64,
-    raised: impl Fn(u32) -> u32,
+    raised: Option<&dyn Fn(u32) -> u32>,
 ) -> Vec<u32> {
     let mut flats: Vec<(u32, f64)> = Vec::new();
     let mut sharp: Vec<(u32, f64)> = Vec::new();
     for surface in surfaces {
-        let mut raised_flats = surface.flats.to_vec();
-        for flat in raised_flats.iter_mut().filter(|flat| flat.faces_down) {
-            flat.boundary = raised(flat.boundary);
-        }
-        let levels = levels(&raised_flats, bins);
+        let mut moved: Vec<u32> = Vec::new();
+        let levels = match raised {
+            None => levels(surface.flats, bins),
+            Some(raised) => {
+                let mut flats = surface.flats.to_vec();
+                for flat in flats.iter_mut().filter(|flat| flat.faces_down) {
+                    let boundary = raised(flat.boundary);
+                    if boundary != flat.boundary {
+                        moved.push(flat.boundary);
+                        flat.boundary = boundary;
+                    }
+                }
+                levels(&flats, bins)
+            }
+        };
         flats.extend(
             levels
                 .into_iter()
                 .filter(|&(_, area_mm2)| area_mm2 >= flat_area_mm2),
         );
-        let pairs = surface.flats.iter().zip(&raised_flats);
-        let moved: Vec<u32> = pairs
-            .filter(|(flat, raised)| flat.boundary != raised.boundary)
-            .map(|(flat, _)| flat.boundary)
-            .collect();
         let changes = sharp_changes(surface.steepest, bins).into_iter();
         sharp.extend(changes.filter(|&(boundary, _)| {
             // A change lies at the flat, or a bin beside it.

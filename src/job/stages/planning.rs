@@ -73,7 +73,7 @@ impl<'a> Planning<'a> {
             Source::Sampled => Some(of(Source::Sampled)),
         };
         let errors = sampled.as_ref().unwrap_or(&exact);
-        let snap_planes = snap_planes_of(&parts, layering, errors.bins(), |boundary| boundary);
+        let snap_planes = snap_planes_of(&parts, layering, errors.bins(), None);
         let heights_mm = parts.iter().map(|part| part.height_mm);
         Self {
             height_mm: heights_mm.fold(0.0, f64::max),
@@ -94,7 +94,7 @@ impl<'a> Planning<'a> {
             0 => 0,
             _ => bins.nearest_boundary(cure.plane_mm(bins.boundary_mm(boundary))),
         };
-        let planes = snap_planes_of(&self.parts, self.layering, bins, raised);
+        let planes = snap_planes_of(&self.parts, self.layering, bins, Some(&raised));
         let before = std::mem::replace(&mut self.snap_planes, planes);
         before != self.snap_planes
     }
@@ -464,7 +464,7 @@ fn snap_planes_of(
     parts: &[Part<'_>],
     layering: &Layering,
     bins: Bins,
-    raised: impl Fn(u32) -> u32,
+    raised: Option<&dyn Fn(u32) -> u32>,
 ) -> Vec<u32> {
     let Some(area_mm2) = layering.snap_mm2 else {
         return Vec::new();
