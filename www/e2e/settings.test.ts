@@ -55,6 +55,23 @@ test("settings plan again by themselves, are explained where they make no sense,
   expect(await field.inputValue()).toBe("0.055");
 });
 
+test("an overcure puts undersides where the model has them, and the result says how far off they are", async () => {
+  const page = await opened("?rays=512&overcure=0.02&retained=0.9");
+  await page.locator("details.figures > summary").click();
+  const undersides = /([\d.]+) mm off on average, ([\d.]+) mm at most \(([\d.]+) mm without compensation\)/;
+  const [, mean, largest, before] = (undersides.exec(await words(page)) ?? []).map(Number) as [number, number, number, number];
+  expect(before).toBeGreaterThan(0.1);
+  expect(largest).toBeLessThan(before);
+  expect(mean).toBeLessThan(0.04);
+  // Its fields are in the address, so that they show.
+  const retained = page.getByLabel("Retained dose");
+  expect(await retained.inputValue()).toBe("0.9");
+  await page.getByLabel("Print-through: overcure").fill("");
+  await settled(page);
+  expect(await retained.count()).toBe(0);
+  expect(await words(page)).not.toMatch(undersides);
+});
+
 test("where no plan holds the model is shown all the same, and why, and an offer leads out; later the last plan stays", async () => {
   const page = await start("?rays=512&tolerance=0.01");
   await drop(page, ballFile);

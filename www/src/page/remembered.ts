@@ -4,7 +4,7 @@ import { isEqual } from "../element/state/plain.js";
 import { check, DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "../element/state/settings.js";
 import { readKept, writeKept } from "./storage.js";
 
-const REMEMBERED = ["printer", "resin", "exposure", "bottomExposure", "bottomLayers", "step"] as const satisfies readonly (keyof Settings)[];
+const REMEMBERED = ["printer", "resin", "exposure", "bottomExposure", "bottomLayers", "penetration", "overcure", "retained", "step"] as const satisfies readonly (keyof Settings)[];
 
 /**
  * The part of a query to remember, without fields that are out of range; empty if all are at their defaults.
