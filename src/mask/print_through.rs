@@ -49,8 +49,8 @@ pub struct PrintThroughReport {
     pub(crate) closed_at_mm: [f64; 3],
 }
 
-/// The least area of roofs and gaps that is worth a warning: half a millimetre square.
-const LEAST_MM2: f64 = 0.25;
+/// The least area of roofs and gaps that is worth a warning. Edges of wedges make up for less than this in most models.
+const LEAST_MM2: f64 = 4.0;
 
 /// Rows of a band.
 const BAND_ROWS: usize = 64;
