@@ -62,7 +62,7 @@ impl Entries<'_> {
         match self.raise {
             Raise::By(distance_mm) => {
                 let mut last_off = 0;
-                printed_entries(hits, classes, |z_in, z_out, _| {
+                printed_ranges(hits, classes, |z_in, z_out| {
                     let unraised = sublayer_of.first_above(z_in);
                     let off = sublayer_of.first_above(z_out);
                     let stays = unraised < self.parts || unraised == last_off;
@@ -140,7 +140,7 @@ impl Entries<'_> {
     }
 }
 
-/// Lit range of a ray whose entry makes up for cure below it.
+/// Lit range of a ray, compensated for the cure below its entry.
 pub(super) struct CuredRange {
     /// Its first sublayer without compensation, and the first dark one above.
     pub unraised: u32,

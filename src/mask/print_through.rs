@@ -195,7 +195,7 @@ impl PrintThroughReport {
         }
     }
 
-    /// That of two models: means are the larger ones.
+    /// The report of two models: areas add up, and the larger errors count.
     pub(crate) fn and(self, other: &Self) -> Self {
         Self {
             before: self.before.largest(other.before),
@@ -291,7 +291,7 @@ impl Lights {
         if range.below.is_none() {
             return;
         }
-        self.before = Some(cure.light_below(range.unraised_layer.min(first), end, self.before));
+        self.before = Some(cure.light_below(range.unraised_layer, end, self.before));
         self.after = Some(cure.light_below(first, end, self.after));
         for (other, light) in others.iter().zip(&mut self.others) {
             *light = Some(other.light_below(first, end, *light));

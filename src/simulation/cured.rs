@@ -96,7 +96,7 @@ impl Doses<'_> {
     }
 }
 
-/// Where the pixels of a row become lit and dark.
+/// Changes of the pixels of a row from dark to lit and back, by their heights.
 fn of_row(printed: &Printed, row: i32, doses: &Doses<'_>) -> Changes {
     let mut columns: BTreeMap<u16, Vec<[usize; 2]>> = BTreeMap::new();
     let mut below: &[u16] = &[];

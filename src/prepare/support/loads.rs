@@ -109,7 +109,7 @@ struct Pull {
     z_mm: f64,
     force_n: f64,
     middle: DVec2,
-    /// What stands on the plate.
+    /// Springs of the rays that stand on the plate.
     standing: Springs,
     contacts: Vec<usize>,
 }
