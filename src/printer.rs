@@ -72,6 +72,10 @@ pub struct Printer {
     /// Pull of its film per area at a disc of 20 mm, in kPa, for supports whose sizes state none.
     #[serde(default)]
     pub film_kpa: Option<f64>,
+    /// True if a grey pixel gets light in proportion to its brightness, as measured. Anti-aliased masks then put cured bottoms between those
+    /// of layers.
+    #[serde(default)]
+    pub proportional_greys: bool,
 }
 
 /// Largest pull of a film: that of a vacuum.

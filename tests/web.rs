@@ -23,6 +23,7 @@ use cusp_slicer::orientation::{Quality, SearchOptions};
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill, Supporting, hollow, support};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::progress::silent;
+use cusp_slicer::resin::PrintThrough;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::warning::Warning;
 use wasm_bindgen_test::wasm_bindgen_test;
@@ -240,6 +241,32 @@ async fn check_plan_and_masks() {
     };
     slicer.plan(&grey, &mut quiet).await.unwrap();
     assert_eq!(archive(&mut slicer), 0x5583_4511_6bf4_6186);
+    // Cured bottoms by whole layers and by greys.
+    let mut cured = Vec::new();
+    for proportional_greys in [false, true] {
+        let printer = serde_json::json!({
+            "pixels": [400, 400], "pitch_um": [50, 50], "volume_mm": [20, 20, 100], "step_mm": 0.01,
+            "proportional_greys": proportional_greys,
+        });
+        let mut options = Options {
+            antialias: 4,
+            printer: Some(serde_json::from_value(printer).unwrap()),
+            ..options()
+        };
+        options.resin.print_through = Some(PrintThrough {
+            overcure_mm: 0.03,
+            retained: 0.8,
+        });
+        let report = slicer.plan(&options, &mut quiet).await.unwrap();
+        let found = report.print_through.unwrap();
+        assert!(
+            found.after.mean_mm < 0.2 * found.before.mean_mm,
+            "{found:?}"
+        );
+        cured.extend(serde_json::to_vec(&found).unwrap());
+        cured.extend(archive(&mut slicer).to_le_bytes());
+    }
+    assert_eq!(fingerprint(&cured), 0xb1a2_0f48_7142_7c99);
     // Every metric, source and objective.
     let mut plans = Vec::new();
     let is_older = |metric: &Metric| *metric != Metric::FilamentRoundness;

@@ -27,6 +27,28 @@ pub struct Cure {
     retained: f64,
 }
 
+/// Lit layers of a column without a gap.
+#[derive(Debug, Clone, Copy, PartialEq)]
+pub struct LitRange {
+    /// The lowest layer.
+    pub first: usize,
+    /// Fraction of that layer's light: less than 1 where it is grey.
+    pub brightness: f64,
+    /// The first dark layer above.
+    pub end: usize,
+}
+
+impl LitRange {
+    /// A range without grey.
+    pub fn white(first: usize, end: usize) -> Self {
+        Self {
+            first,
+            brightness: 1.0,
+            end,
+        }
+    }
+}
+
 /// Light that reaches a range of a column from the lit layers above it.
 #[derive(Debug, Clone, Copy)]
 pub struct Light {
@@ -71,7 +93,8 @@ impl Cure {
             let fade = cure.fade(layer, layer + 1);
             cure.own[layer] = exposures_s[layer] / reference_s * reference * fade;
             cure.above[layer] = cure.own[layer] + fade * cure.above[layer + 1];
-            cure.bottoms_mm[layer] = cure.solid_to_mm(layer, cure.above[layer]);
+            let range = LitRange::white(layer, layers);
+            cure.bottoms_mm[layer] = cure.solid_to_mm(range, cure.above[layer]);
         }
         cure
     }
@@ -84,26 +107,28 @@ impl Cure {
         exp((self.boundaries_mm[low] - self.boundaries_mm[high]) / self.penetration_mm)
     }
 
-    /// Height down to which resin is solid below a layer, if the dose at its bottom is this.
-    fn solid_to_mm(&self, layer: usize, dose: f64) -> f64 {
-        let own = self.own[layer];
+    /// Height down to which resin is solid below a range, if the dose at its bottom is this.
+    fn solid_to_mm(&self, range: LitRange, dose: f64) -> f64 {
+        let own = range.brightness * self.own[range.first];
         let counted = own + self.retained * (dose - own);
-        self.boundaries_mm[layer] - self.penetration_mm * ln(counted)
+        self.boundaries_mm[range.first] - self.penetration_mm * ln(counted)
     }
 
-    /// Dose at the bottom of a layer where all layers from it up to `end` are lit, and those above by `light`.
-    fn dose(&self, layer: usize, end: usize, light: Option<Light>) -> f64 {
-        let fade = self.fade(layer, end);
+    /// Dose at the bottom of a range that is lit from above by `light`.
+    fn dose(&self, range: LitRange, light: Option<Light>) -> f64 {
+        let LitRange { first, end, .. } = range;
+        let fade = self.fade(first, end);
         let from_above = light.map_or(0.0, |light| self.fade(end, light.layer) * light.dose);
-        self.above[layer] - fade * (self.above[end] - from_above)
+        let white = self.above[first] - fade * (self.above[end] - from_above);
+        white - (1.0 - range.brightness) * self.own[first]
     }
 
-    /// Cured bottom of a column that is lit from a layer up to `end`, and above by `light`.
-    pub fn bottom_mm(&self, layer: usize, end: usize, light: Option<Light>) -> f64 {
-        if self.is_far(layer, end) {
-            return self.bottoms_mm[layer];
+    /// Cured bottom of a range that is lit from above by `light`.
+    pub fn bottom_mm(&self, range: LitRange, light: Option<Light>) -> f64 {
+        if range.brightness == 1.0 && self.is_far(range.first, range.end) {
+            return self.bottoms_mm[range.first];
         }
-        self.solid_to_mm(layer, self.dose(layer, end, light))
+        self.solid_to_mm(range, self.dose(range, light))
     }
 
     /// Returns true if nothing is left at one boundary of a dose at a higher one.
@@ -111,25 +136,67 @@ impl Cure {
         self.boundaries_mm[high] - self.boundaries_mm[low] > FAR * self.penetration_mm
     }
 
-    /// The layer from which on a column up to `end` must be lit, so that its cured bottom is nearest to `z_mm`; at least `first`.
-    pub fn first_lit(&self, first: usize, end: usize, light: Option<Light>, z_mm: f64) -> usize {
-        let error_mm = |layer| self.bottom_mm(layer, end, light) - z_mm;
-        let (mut best, mut layer) = ((first, error_mm(first)), first);
-        let mut here_mm = best.1;
-        while here_mm < 0.0 && layer + 1 < end {
-            layer += 1;
-            here_mm = error_mm(layer);
-            if here_mm.abs() < best.1.abs() {
-                best = (layer, here_mm);
+    /// The part of a range that must be lit, so that its cured bottom is nearest to `z_mm`. Its lowest layer may be grey in this number of
+    /// equal steps up to white, 1 for none.
+    pub fn raised(&self, range: LitRange, light: Option<Light>, z_mm: f64, greys: u32) -> LitRange {
+        let from = |first| LitRange::white(first, range.end);
+        let error_mm = |first| self.bottom_mm(from(first), light) - z_mm;
+        let (mut below, mut below_mm) = (range.first, error_mm(range.first));
+        let mut next = None;
+        while below_mm < 0.0 && below + 1 < range.end {
+            let next_mm = error_mm(below + 1);
+            if next_mm > 0.0 {
+                next = Some((from(below + 1), next_mm));
+                break;
+            }
+            (below, below_mm) = (below + 1, next_mm);
+        }
+        let mut nearest = (from(below), below_mm.abs());
+        let greys = (greys > 1 && below_mm < 0.0)
+            .then(|| self.greys_near(from(below), light, z_mm, greys))
+            .into_iter()
+            .flatten()
+            .map(|it| (it, (self.bottom_mm(it, light) - z_mm).abs()));
+        for other in next.into_iter().chain(greys) {
+            if other.1 < nearest.1 {
+                nearest = other;
             }
         }
-        best.0
+        nearest.0
     }
 
-    /// The light below a column that is lit from a layer up to `end`, and above by `light`.
-    pub fn light_below(&self, layer: usize, end: usize, light: Option<Light>) -> Light {
-        let dose = self.dose(layer, end, light);
-        Light { layer, dose }
+    /// The range with the two greys in its lowest layer between which the dose at `z_mm` is the critical one, except for black and white, and
+    /// for those too dark to cure at the film.
+    fn greys_near(
+        &self,
+        range: LitRange,
+        light: Option<Light>,
+        z_mm: f64,
+        greys: u32,
+    ) -> impl Iterator<Item = LitRange> {
+        let own = self.own[range.first];
+        let others = self.retained * (self.dose(range, light) - own);
+        let wanted = exp((self.boundaries_mm[range.first] - z_mm) / self.penetration_mm);
+        let steps = f64::from(greys);
+        let darker = ((wanted - others) / own * steps).floor();
+        let at_film = own * exp(self.thickness_mm(range.first) / self.penetration_mm);
+        let has_above = range.first + 1 < range.end;
+        let cures = move |grey: f64| has_above || grey / steps * at_film >= 1.0;
+        let greys = [darker, darker + 1.0].into_iter();
+        greys
+            .filter(move |grey| (1.0..steps).contains(grey) && cures(*grey))
+            .map(move |grey| LitRange {
+                brightness: grey / steps,
+                ..range
+            })
+    }
+
+    /// The light below a range that is lit from above by `light`.
+    pub fn light_below(&self, range: LitRange, light: Option<Light>) -> Light {
+        Light {
+            layer: range.first,
+            dose: self.dose(range, light),
+        }
     }
 
     /// Thickness of a layer.
@@ -174,7 +241,11 @@ impl Cure {
         if first >= layers {
             return flat_mm;
         }
-        flat_mm + self.depth_mm(self.first_lit(first, layers, None, flat_mm))
+        flat_mm
+            + self.depth_mm(
+                self.raised(LitRange::white(first, layers), None, flat_mm, 1)
+                    .first,
+            )
     }
 
     /// Depth to which a layer cures below its bottom, where all layers above it are lit.

@@ -5,6 +5,7 @@ use web_time::Instant;
 
 use super::report::odd_size;
 use super::stages::facet_shapes::{Extra, shapes_of};
+use super::stages::measured::weights_with_greys;
 use super::stages::parts::{Layering, Resolved};
 use super::stages::planning::Planning;
 use super::stages::stage::{Stage, StageProgress, ms_since};
@@ -244,7 +245,7 @@ impl LoadedModel {
         let bins = Bins::of_height(height_mm, layering.bin_mm)?;
         let facet_bins = FacetBins::of(&mesh, bins);
         let extra = || Ok::<_, Error>(Extra::of(&mesh, layering.metric, bins));
-        let weights = self.known_weights(layering);
+        let weights = weights_with_greys(&mesh, layering, self.known_weights(layering));
         let shapes = shapes_of(&facet_bins, extra, layering, weights)?;
         let planning = Planning::alone(height_mm, &shapes, layering);
         let plan = planning.plan_freely()?;

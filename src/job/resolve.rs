@@ -35,6 +35,7 @@ impl Options {
         let mut layering = self.layering(printer.as_deref())?;
         if filament.is_some() {
             layering.resin.print_through = None;
+            layering.greys = 1;
         }
         let mut sampling = self.sampling(printer.as_deref())?;
         sampling.wider_mm = layering.support_wider_mm(self.supports.is_some());
@@ -183,6 +184,10 @@ impl Options {
                 self.resin.growth.and(printer.growth)
             }),
             min_feature_mm: self.min_feature_mm()?,
+            greys: match (printer, &self.resin.print_through) {
+                (Some(printer), Some(_)) if printer.proportional_greys => self.antialias,
+                _ => 1,
+            },
         };
         let bins = Bins {
             count: 1,

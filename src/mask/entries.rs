@@ -1,7 +1,7 @@
 //! Sublayers at which the rays of a pixel become lit and dark.
 
 use super::samples::SublayerOf;
-use crate::cure::{Cure, Light};
+use crate::cure::{Cure, Light, LitRange};
 use crate::ldi::{Hit, printed_entries, printed_ranges};
 use crate::model::FacetClasses;
 
@@ -11,7 +11,12 @@ pub enum Raise {
     /// By a distance in millimetres.
     By(f64),
     /// By as much as the layers above cure below them.
-    Cured(Cure),
+    Cured {
+        /// Depths to which layers cure.
+        cure: Cure,
+        /// Steps of brightness that put bottoms between those of layers; 1 for none.
+        greys: u32,
+    },
 }
 
 /// Lit ranges of rays in the masks.
@@ -75,13 +80,8 @@ impl Entries<'_> {
                     emit(on, off, unraised);
                 });
             }
-            Raise::Cured(cure) => self.each_cured(cure, hits, classes, &mut |it| {
-                let on = if it.is_raised {
-                    it.first as u32 * self.parts
-                } else {
-                    it.unraised
-                };
-                emit(on, it.off, it.unraised);
+            Raise::Cured { cure, .. } => self.each_cured(cure, hits, classes, &mut |it| {
+                emit(it.on, it.off, it.unraised);
             }),
         }
     }
@@ -95,6 +95,10 @@ impl Entries<'_> {
         emit: &mut dyn FnMut(&CuredRange),
     ) {
         let parts = self.parts;
+        let greys = match self.raise {
+            Raise::Cured { greys, .. } => *greys,
+            Raise::By(_) => 1,
+        };
         let mut ranges: Vec<Lit> = Vec::new();
         printed_entries(hits, classes, |z_in, z_out, is_support| {
             let [on, off] = [z_in, z_out].map(|z_mm| self.sublayer_of.first_above(z_mm));
@@ -114,25 +118,37 @@ impl Entries<'_> {
             let it = ranges[place];
             let mut range = CuredRange {
                 unraised: it.on,
+                on: it.on,
                 off: it.off,
                 unraised_layer: (it.on / parts) as usize,
-                first: (it.on / parts) as usize,
                 // A layer of several heights is lit if most of them are.
-                end: ((it.off + parts / 2) / parts) as usize,
+                lit: LitRange::white(
+                    (it.on / parts) as usize,
+                    ((it.off + parts / 2) / parts) as usize,
+                ),
                 z_mm: f64::from(it.z_in),
                 is_raised: false,
                 below: place
                     .checked_sub(1)
                     .map(|place| (ranges[place].off / parts) as usize),
             };
-            if range.first < range.end {
-                range.is_raised = range.first > 0 && !it.is_support;
+            let lit = range.lit;
+            if lit.first < lit.end {
+                range.is_raised = lit.first > 0 && !it.is_support;
                 if range.is_raised {
-                    range.first = cure.first_lit(range.first, range.end, light, range.z_mm);
+                    range.lit = cure.raised(lit, light, range.z_mm, greys);
+                    let black = (1.0 - range.lit.brightness) * f64::from(parts);
+                    let on = range.lit.first as u32 * parts + black.round() as u32;
+                    // A top that ends within a layer leaves less of it for greys.
+                    range.on = on.min(it.off - 1);
+                    if let Some(below) = place.checked_sub(1) {
+                        // A whole layer may begin within a gap that is thinner than one.
+                        range.on = range.on.max(ranges[below].off);
+                    }
                 }
                 // Most rays have a single range, below which no light matters.
                 if place > 0 {
-                    light = Some(cure.light_below(range.first, range.end, light));
+                    light = Some(cure.light_below(range.lit, light));
                 }
             }
             emit(&range);
@@ -145,11 +161,12 @@ pub(super) struct CuredRange {
     /// Its first sublayer without compensation, and the first dark one above.
     pub unraised: u32,
     pub off: u32,
+    /// Its first sublayer with compensation.
+    pub on: u32,
     /// Its first layer without compensation.
     pub unraised_layer: usize,
-    /// Its first layer, and the first dark one above.
-    pub first: usize,
-    pub end: usize,
+    /// Its lit layers.
+    pub lit: LitRange,
     /// Height of the model's surface.
     pub z_mm: f64,
     /// True if its entry is compensated.

@@ -113,7 +113,7 @@ fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
 fn raised_mm(shrink: &Shrink<'_>) -> f64 {
     match shrink.shrinking.raise {
         Raise::By(distance_mm) => distance_mm,
-        Raise::Cured(_) => 0.0,
+        Raise::Cured { .. } => 0.0,
     }
 }
 

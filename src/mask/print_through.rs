@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::Samples;
 use super::entries::{CuredRange, Entries, Raise};
 use super::samples::SublayerOf;
-use crate::cure::{Cure, Light};
+use crate::cure::{Cure, Light, LitRange};
 use crate::ldi::Ldi;
 use crate::parallel;
 use crate::plan::Plan;
@@ -100,7 +100,8 @@ impl Tally {
     }
 }
 
-/// Measures the masks that make up for a cure, under that cure and under others. The areas are those of one copy of the model.
+/// Measures the masks that make up for a cure, under that cure and under others. The areas are those of one copy of the model. `None` if
+/// the masks make up for a constant distance.
 ///
 /// Cost: linear in hits.
 ///
@@ -110,16 +111,18 @@ pub(crate) fn print_through(
     ldi: &Ldi,
     plan: &Plan,
     samples: Samples,
-    cure: &Cure,
+    raise: &Raise,
     others: &[Cure],
     progress: &mut Progress<'_>,
-) -> Result<PrintThroughReport, Cancelled> {
+) -> Result<Option<PrintThroughReport>, Cancelled> {
+    let Raise::Cured { cure, .. } = raise else {
+        return Ok(None);
+    };
     let sublayer_of = SublayerOf::new(plan, samples.sublayers);
-    let raise = Raise::Cured(cure.clone());
     let entries = Entries {
         sublayer_of: &sublayer_of,
         parts: samples.sublayers,
-        raise: &raise,
+        raise,
     };
     let (width, height) = (ldi.grid.width as usize, ldi.grid.height as usize);
     let bands = (0..height).step_by(BAND_ROWS);
@@ -164,7 +167,7 @@ pub(crate) fn print_through(
         .iter()
         .take(others.len())
         .map(|&it| errors(it, mended));
-    Ok(PrintThroughReport {
+    Ok(Some(PrintThroughReport {
         before: errors(all.before, all.rays),
         after,
         within: within.fold(after, BottomErrors::largest),
@@ -173,7 +176,7 @@ pub(crate) fn print_through(
         closed_gaps_mm2: area_mm2(all.closed),
         thin_at_mm: at_mm(all.thin_at),
         closed_at_mm: at_mm(all.closed_at),
-    })
+    }))
 }
 
 impl BottomErrors {
@@ -254,19 +257,18 @@ impl Lights {
         others: &[Cure],
         tally: &mut Tally,
     ) {
-        let CuredRange {
-            first, end, z_mm, ..
-        } = *range;
+        let CuredRange { lit, z_mm, .. } = *range;
+        let LitRange { first, end, .. } = lit;
         if first >= end {
             return;
         }
+        let unraised = LitRange::white(range.unraised_layer, end);
         if range.is_raised {
-            let unraised = range.unraised_layer;
             note(
                 &mut tally.before,
-                cure.bottom_mm(unraised, end, self.before) - z_mm,
+                cure.bottom_mm(unraised, self.before) - z_mm,
             );
-            let bottom_mm = cure.bottom_mm(first, end, self.after);
+            let bottom_mm = cure.bottom_mm(lit, self.after);
             let error_mm = bottom_mm - z_mm;
             tally.rays += 1;
             if first + 1 == end && error_mm < -0.5 * cure.thickness_mm(first) {
@@ -277,7 +279,7 @@ impl Lights {
                 note(&mut tally.after, error_mm);
                 for ((other, light), sums) in others.iter().zip(&self.others).zip(&mut tally.others)
                 {
-                    note(sums, other.bottom_mm(first, end, *light) - z_mm);
+                    note(sums, other.bottom_mm(lit, *light) - z_mm);
                 }
             }
             if range
@@ -291,10 +293,10 @@ impl Lights {
         if range.below.is_none() {
             return;
         }
-        self.before = Some(cure.light_below(range.unraised_layer, end, self.before));
-        self.after = Some(cure.light_below(first, end, self.after));
+        self.before = Some(cure.light_below(unraised, self.before));
+        self.after = Some(cure.light_below(lit, self.after));
         for (other, light) in others.iter().zip(&mut self.others) {
-            *light = Some(other.light_below(first, end, *light));
+            *light = Some(other.light_below(lit, *light));
         }
     }
 }

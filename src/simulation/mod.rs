@@ -10,7 +10,8 @@
 //! do, and print files by [`crate::archive::read`].
 //!
 //! Both distances may be off by up to half a pixel's diagonal, because that is what masks resolve. Grey pixels count as
-//! printed from half brightness on. With a resin that states its print-through, layers also cure below their bottoms ([`Knowledge::cure`]).
+//! printed from half brightness on. With a resin that states its print-through, layers also cure below their bottoms
+//! ([`Knowledge::cure`]), and grey pixels get light in proportion to their brightness.
 
 mod cured;
 mod deviation;
@@ -31,6 +32,7 @@ use crate::archive::read::{PrintFile, PrintedCopy};
 use crate::format::Format;
 use crate::model::read::Contents;
 use crate::model::{FacetClass, Mesh, MeshError, ModelUnit, Pose, TURNS};
+use crate::parallel;
 use crate::progress::{Progress, report};
 use crate::resin::Resin;
 use deviation::Tally;
@@ -164,7 +166,10 @@ pub fn simulate(
             exposure_s.ok_or(SimulationError::NoExposure { layer: layer + 1 })
         });
         let exposures_s: Vec<f64> = exposures_s.collect::<Result<_, _>>()?;
-        printed = cured::cured(printed, &exposures_s, resin, print_through);
+        let layers = (0..file.layers().len()).collect();
+        let greys = parallel::map(layers, |layer| file.greys(layer, flips));
+        let greys: Vec<_> = greys.into_iter().collect::<Result<_, _>>()?;
+        printed = cured::cured(printed, &greys, &exposures_s, resin, print_through);
     }
 
     let mut facets = Facets::of(&mesh);

@@ -40,6 +40,7 @@ mod surface;
 mod uvj;
 
 use std::borrow::Cow;
+use std::collections::BTreeMap;
 use std::io::Write;
 use std::ops::Range;
 
@@ -219,6 +220,35 @@ impl<'a> PrintFile<'a> {
         let mask = self.stored_mask(layer);
         let mask = mask.map_err(|fault| at_layer(layer, fault))?;
         Ok(mask.seen_from_above(self.metadata().pixels, flips))
+    }
+
+    /// The grey pixels of a layer by their brightness, turned over as `flips` says. White and black ones are left out.
+    ///
+    /// # Errors
+    /// [`PrintFileError::Layer`].
+    ///
+    /// # Panics
+    /// If there is no such layer; the first is 0.
+    pub fn greys(&self, layer: usize, flips: Flips) -> Result<Vec<(u8, Mask)>, PrintFileError> {
+        let [width, height] = self.metadata().pixels;
+        let mut greys: BTreeMap<u8, (Collector, u32)> = BTreeMap::new();
+        let mut place = 0;
+        let decoded = self.runs(layer, &mut |grey, count| {
+            if !matches!(grey, 0 | u8::MAX) {
+                let it = greys.entry(grey);
+                let (collector, end) = it.or_insert_with(|| (Collector::new(width), 0));
+                collector.run(0, place - *end);
+                collector.run(u8::MAX, count);
+                *end = place + count;
+            }
+            place += count;
+        });
+        decoded.map_err(|fault| at_layer(layer, fault))?;
+        let greys = greys.into_iter().map(|(grey, (collector, _))| {
+            let mask = collector.finish();
+            (grey, mask.seen_from_above([width, height], flips))
+        });
+        Ok(greys.collect())
     }
 
     fn stored_mask(&self, layer: usize) -> Result<Mask, LayerFault> {

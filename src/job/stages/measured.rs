@@ -8,6 +8,7 @@ use super::sampled::Sampled;
 use crate::grid::Bins;
 use crate::job::Error;
 use crate::ldi::LdiError;
+use crate::model::Mesh;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::shapes::Shapes;
 use crate::progress::Progress;
@@ -33,6 +34,7 @@ impl Measured {
         progress: &mut Progress<'_>,
     ) -> Result<Arc<Self>, Error> {
         let (mesh, image) = (of.mesh(), of.image());
+        let weights = weights_with_greys(mesh, layering, weights);
         let bins = Bins::of_height(of.height_mm, layering.bin_mm)?;
         let metric = layering.metric;
         let is_of_these =
@@ -68,6 +70,38 @@ impl Measured {
             shapes,
         }))
     }
+}
+
+/// Factor of the height to which a step of grey sets a bottom, over equal steps: brightness acts by its logarithm.
+const GREY_RESIDUAL: f32 = 2.0;
+
+/// Weights of facets where greys set the bottoms of surfaces that face down: their stairs are those of greys, not of layers. The first
+/// layer stays as it is.
+pub fn weights_with_greys(
+    mesh: &Mesh,
+    layering: &Layering,
+    weights: Option<Vec<f32>>,
+) -> Option<Vec<f32>> {
+    let residual = (GREY_RESIDUAL / layering.greys as f32).min(1.0);
+    if residual == 1.0 {
+        return weights;
+    }
+    let limits = &layering.limits;
+    let first_mm = limits
+        .layer_max_mm
+        .max(limits.first_layer_mm.unwrap_or(0.0));
+    let mut weights = weights.unwrap_or_else(|| vec![1.0; mesh.surface_facets]);
+    for (facet, weight) in weights.iter_mut().enumerate() {
+        let is_above = || {
+            mesh.corners(facet)
+                .iter()
+                .all(|corner| corner.z >= first_mm)
+        };
+        if mesh.faces_down(facet) && is_above() {
+            *weight *= residual;
+        }
+    }
+    Some(weights)
 }
 
 /// A model after some turns of 15°, sampled and measured. All copies that stand like this share it.

@@ -77,6 +77,9 @@ pub(crate) struct Layering {
     pub growth: Growth,
     /// The least width that making up for it leaves; 0 for none.
     pub min_feature_mm: f64,
+    /// Steps of brightness that put cured bottoms between those of layers: anti-aliased masks on a printer whose greys cure in proportion, of
+    /// a resin that states its print-through. 1 for none.
+    pub greys: u32,
 }
 
 /// The tolerance that a plan keeps.

@@ -117,20 +117,22 @@ impl Planned {
         &self,
         progress: &mut Progress<'_>,
     ) -> Result<Option<PrintThroughReport>, Cancelled> {
-        let Layering { resin, .. } = &self.layering;
-        let Some(cure) = Cure::of_plan(&self.plan, resin) else {
+        let Some(Shrinking { raise, .. }) = self.shrinking() else {
             return Ok(None);
         };
-        let others = Cure::within(&self.plan, resin);
+        let others = Cure::within(&self.plan, &self.layering.resin);
         let mut all: Option<PrintThroughReport> = None;
         for model in &self.models {
             let Ok(ldi) = model.sampled().ldi() else {
                 continue;
             };
             let samples = model.sampled().sampling.samples;
-            let its = print_through(ldi, &self.plan, samples, &cure, &others, &mut |_| {
+            let its = print_through(ldi, &self.plan, samples, &raise, &others, &mut |_| {
                 progress(1.0)
             })?;
+            let Some(its) = its else {
+                return Ok(None);
+            };
             let its = its.of_copies(model.copies);
             all = Some(all.map_or(its, |all| all.and(&its)));
         }
@@ -238,7 +240,10 @@ impl Planned {
         }
         Some(Shrinking {
             xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
-            raise: cure.map_or(Raise::By(growth.z_mm), Raise::Cured),
+            raise: cure.map_or(Raise::By(growth.z_mm), |cure| Raise::Cured {
+                cure,
+                greys: self.layering.greys,
+            }),
             least_mm: self.layering.min_feature_mm,
         })
     }
