@@ -19,6 +19,7 @@ pub struct Bridge {
 /// Values of a resin that fit measured bridges best.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct CureFit {
     /// Penetration depth.
     pub penetration_mm: f64,

@@ -11,6 +11,7 @@ use super::stages::parts::Output;
 use super::stages::stage::StageProgress;
 use super::{Backend, Error, Job, JobOptions, LoadedModel, Options, Report, Snap};
 use crate::archive::ArchiveError;
+use crate::cure::Bridge;
 use crate::format::{Format, FormatThicknesses};
 use crate::growth::Growth;
 use crate::plan::HeightRange;
@@ -71,6 +72,22 @@ const WIDTHS_MM: [f32; 4] = [0.1, 0.2, 0.3, 0.4];
 impl Calibration {
     /// Numbers of layers of the bridges of [`Self::cure`], from the left.
     pub const BRIDGES: [u8; 6] = [1, 2, 3, 4, 6, 8];
+
+    /// Usual thicknesses of their layers, in front and behind.
+    pub const BRIDGES_MM: [f64; 2] = [0.05, 0.1];
+
+    /// Bridges of the usual thicknesses by what they measure in millimetres, those in front first. NaN stands for one that was not measured.
+    pub fn measured_bridges(measured_mm: &[f64]) -> Vec<Bridge> {
+        let bridges = Self::BRIDGES_MM.into_iter();
+        let bridges = bridges.flat_map(|layer_mm| Self::BRIDGES.map(|layers| (layer_mm, layers)));
+        let measured = bridges.zip(measured_mm).filter(|(_, mm)| !mm.is_nan());
+        let measured = measured.map(|((layer_mm, layers), &measured_mm)| Bridge {
+            layer_mm,
+            layers: u32::from(layers),
+            measured_mm,
+        });
+        measured.collect()
+    }
 
     /// Two towers side by side: both have ten layers of 50 µm, and one goes on with ten of 100 µm. They are 0.5 and 1.5 mm high
     /// if the printer moves to the height of each layer; 0.5 and 1.0 mm, or 1.0 and 2.0 mm, if it takes one thickness for all.

@@ -4,7 +4,7 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::Options;
+use super::{Calibration, Options};
 use crate::arrange::Arranging;
 use crate::filament::{FilamentSlicer, LayerRule, NOZZLES_MM, USUAL_NOZZLE_MM};
 use crate::format::Format;
@@ -69,6 +69,10 @@ pub struct Facts {
     pub support_most_mm: f64,
     /// Default diameter of drain holes.
     pub drain_mm: f64,
+    /// Numbers of layers of the bridges that measure print-through.
+    pub bridges: [u8; Calibration::BRIDGES.len()],
+    /// Usual thicknesses of their layers.
+    pub bridges_mm: [f64; 2],
     /// The options that rays depend on.
     #[cfg_attr(target_arch = "wasm32", tsify(type = "(keyof Options)[]"))]
     pub ray_options: [&'static str; RAY_OPTIONS.len()],
@@ -140,6 +144,8 @@ impl Default for Facts {
             support_least: least.collect(),
             support_most_mm: MOST_SUPPORT_MM,
             drain_mm: AutoDrain::default().diameter_mm,
+            bridges: Calibration::BRIDGES,
+            bridges_mm: Calibration::BRIDGES_MM,
             ray_options: RAY_OPTIONS,
         }
     }

@@ -4,6 +4,7 @@ use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::{self, ArchiveError, Canvas};
+use cusp_slicer::cure::fit;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
@@ -14,9 +15,11 @@ use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
 use cusp_slicer::model::{FacetClass, weights};
 use cusp_slicer::orientation::packed::{pack, unpack};
 use cusp_slicer::orientation::{Search, SearchOptions, Task, TaskResult};
+use cusp_slicer::plan::PlanError;
 use cusp_slicer::price::{PriceItem, Prices};
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::resin::Resin;
 use js_sys::{Function, Uint8Array};
 use serde::de::DeserializeOwned;
 use tsify::{Ts, Tsify};
@@ -634,15 +637,58 @@ pub async fn calibrate_layers(
     )]
     progress: Function,
 ) -> Result<JsValue, JsValue> {
-    let options = given(&options)?;
-    let calibration = Calibration::layers(&options).map_err(throw)?;
-    let mut writer = Chunks::to(&take);
-    let mut progress = progress_to(&progress);
+    let calibration = Calibration::layers(&given(&options)?).map_err(throw)?;
+    calibrate(&calibration, &take, &progress).await
+}
+
+/// Writes the print of the bridges that measure a resin's print-through, as [`calibrate_layers`] writes towers.
+///
+/// # Errors
+/// Throws a `CuspError`, or what `take` throws.
+#[wasm_bindgen(unchecked_return_type = "Report")]
+pub async fn calibrate_cure(
+    options: Ts<Options>,
+    #[wasm_bindgen(unchecked_param_type = "(chunk: Uint8Array) => void")] take: Function,
+    #[wasm_bindgen(
+        unchecked_param_type = "(stage: Stage, fraction: number, done: number) => void"
+    )]
+    progress: Function,
+) -> Result<JsValue, JsValue> {
+    let bridges = Calibration::cure(&given(&options)?, Calibration::BRIDGES_MM).map_err(throw)?;
+    calibrate(&bridges, &take, &progress).await
+}
+
+async fn calibrate(
+    calibration: &Calibration,
+    take: &Function,
+    progress: &Function,
+) -> Result<JsValue, JsValue> {
+    let mut writer = Chunks::to(take);
+    let mut progress = progress_to(progress);
     let written = calibration.write(&mut writer, &mut progress).await;
     let mut report = JsValue::NULL;
     let written = written.map(|(_, written)| report = to_js(&written));
     Chunks::end(writer, written)?;
     Ok(report)
+}
+
+/// Print-through of a resin by the measured thicknesses of these bridges in millimetres, thickness by thickness; NaN for those that were
+/// not measured. `undefined` if there are too few.
+///
+/// # Errors
+/// Throws a `CuspError`.
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+#[wasm_bindgen(unchecked_return_type = "CureFit | undefined")]
+pub fn fit_cure(measured_mm: &[f64], resin: Ts<Resin>) -> Result<JsValue, JsValue> {
+    let resin: Resin = given(&resin)?;
+    resin
+        .check()
+        .map_err(|error| throw(PlanError::from(error)))?;
+    let found = fit(&Calibration::measured_bridges(measured_mm), &resin);
+    Ok(found.map_or(JsValue::UNDEFINED, |found| to_js(&found)))
 }
 
 /// Size of these chunks in bytes.

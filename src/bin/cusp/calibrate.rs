@@ -51,7 +51,7 @@ pub enum Calibrating {
     /// Write bridges of 1 to 8 layers to measure with a caliper, which show how deep layers cure below themselves
     Cure {
         /// Layer thicknesses of the front and the back row
-        #[arg(long, value_name = "MM,MM", value_delimiter = ',', value_parser = length, num_args = 2, default_values_t = [0.05, 0.1])]
+        #[arg(long, value_name = "MM,MM", value_delimiter = ',', value_parser = length, num_args = 2, default_values_t = Calibration::BRIDGES_MM)]
         thicknesses: Vec<f64>,
         #[command(flatten)]
         target: Target,

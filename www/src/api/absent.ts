@@ -32,6 +32,8 @@ export function absentSlicer(): Slicer {
     weightsFile: reject,
     readWeights: reject,
     calibrateLayers: reject,
+    calibrateCure: reject,
+    fitCure: reject,
     printers: reject,
     price: reject,
     warm: nothing,

@@ -9,7 +9,7 @@ import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch,
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { callback, release } from "./callbacks.js";
-import type { Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Written } from "./wire.js";
+import type { CureFit, Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Resin, Written } from "./wire.js";
 
 /** Importance of each facet, 0 to 1; null: all equal. */
 export type Weights = Float32Array | null;
@@ -166,6 +166,15 @@ export class Client {
   /** The print file of the test towers, which needs no model. */
   calibrateLayers(options: Options, watch: Watch): Promise<Written> {
     return this.#calls.run(watch, null, async (life, _, progress) => life.handle.remote.calibrateLayers(options, progress));
+  }
+
+  /** The print file of the bridges that measure print-through, likewise. */
+  calibrateCure(options: Options, watch: Watch): Promise<Written> {
+    return this.#calls.run(watch, null, async (life, _, progress) => life.handle.remote.calibrateCure(options, progress));
+  }
+
+  fitCure(measured_mm: readonly number[], resin: Resin, watch: Watch): Promise<CureFit | null> {
+    return this.#calls.run(watch, null, async (life) => life.handle.remote.fitCure(measured_mm, resin));
   }
 
   /** Price of the last good plan. */

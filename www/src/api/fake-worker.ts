@@ -93,6 +93,8 @@ export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
     advanceSearch: () => ({ tasks: [], measured: 0, progress: 0, rated: null, result: null }),
     evaluate: () => [],
     calibrateLayers: notFaked,
+    calibrateCure: notFaked,
+    fitCure: () => null,
     printers: () => [],
     price: ({ currency }, items, finish) => {
       say(`price of ${JSON.stringify(items)}, ${finish}`);

@@ -31,7 +31,7 @@ import type { Ordered } from "./price.js";
 import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
-import type { ArrangeError, Arranging, Candidate, Comparison, JobOptions, JobReport, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
+import type { ArrangeError, Arranging, Candidate, Comparison, CureFit, JobOptions, JobReport, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, Resin, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -207,6 +207,16 @@ export interface Slicer {
    * thickness for all layers.
    */
   calibrateLayers(options?: Options, call?: Watch): Promise<TestTowers>;
+  /**
+   * Print file of bridges of 1, 2, 3, 4, 6 and 8 layers of 0.05 mm in front and of 0.1 mm behind, which measure the print-through of a resin.
+   * Likewise it needs no model.
+   */
+  calibrateCure(options?: Options, call?: Watch): Promise<PrintFile>;
+  /**
+   * Print-through by the measured thicknesses of these bridges in millimetres, from the left, those in front first; NaN for those that were
+   * not measured. `resin` is the one that they were printed with. Null if fewer than four are measured.
+   */
+  fitCure(measured_mm: readonly number[], resin?: Resin, call?: Watch): Promise<CureFit | null>;
   /**
    * Price of the last plan for the prices of a shop, by the formula in docs/price.md. Each copy counts with its share of its plate's time.
    * `cusp verify --prices` computes the same on a server.
@@ -453,6 +463,11 @@ export function createSlicer(setup: Setup = {}): Slicer {
       const { blob, report } = await side.calibrateLayers(options, call);
       return { ...printFile(`towers-${printerName(options)}`, blob, report), report };
     },
+    async calibrateCure(options = {}, call = {}) {
+      const { blob, report } = await side.calibrateCure(options, call);
+      return printFile(`bridges-${printerName(options)}`, blob, report);
+    },
+    fitCure: (measured_mm, resin = {}, call = {}) => side.fitCure(measured_mm, resin, call),
     price: (prices, ordered = {}, call = {}) => main.price(prices, ordered, call),
     printers: () => main.printers(),
     warm: () => main.warm(),

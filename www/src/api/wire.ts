@@ -3,10 +3,10 @@
  *
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
-import type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
+import type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
 import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
-export type { Comparison, Preview, MeshInfo, Metric, Options, Printer, Report, Stage, Tradeoff };
+export type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff };
 export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, SearchOptions, Task };
 export type {
   Arranging,
@@ -39,7 +39,6 @@ export type {
   Quantity,
   QuantityBreak,
   ReadOptions,
-  Resin,
   Severities,
   Severity,
   Snap,
@@ -186,6 +185,10 @@ export interface SlicerWorker {
   evaluate(model: number, options: Options, tasks: Task[]): TaskResult[];
   /** Print file of the test towers; changes neither the job nor its plan. */
   calibrateLayers(options: Options, progress: OnProgress): Promise<Written>;
+  /** Print file of the bridges that measure print-through, likewise. */
+  calibrateCure(options: Options, progress: OnProgress): Promise<Written>;
+  /** Print-through by measured bridges; null if there are too few. */
+  fitCure(measured_mm: readonly number[], resin: Resin): CureFit | null;
   printers(): KnownPrinter[];
   /** Price of an order; needs no model. */
   price(prices: Prices, items: PriceItem[], finish: string | null): Price;

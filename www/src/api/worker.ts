@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. It holds one job. */
 import * as Comlink from "comlink";
-import init, { calibrate_layers, encode_group, head_bytes, identify, Job, OrientationSearch, price, printers, type InitOutput } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_cure, calibrate_layers, encode_group, head_bytes, fit_cure, identify, Job, OrientationSearch, price, printers, type InitOutput } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
@@ -201,6 +201,12 @@ const api: Remote = {
     const report = await calibrate_layers(options, sink.take, progress);
     return { blob: sink.finish(), report };
   },
+  async calibrateCure(options, progress) {
+    const sink = new BlobSink();
+    const report = await calibrate_cure(options, sink.take, progress);
+    return { blob: sink.finish(), report };
+  },
+  fitCure: (measured_mm, resin) => fit_cure(Float64Array.from(measured_mm), resin) ?? null,
   // The core fills in the defaults of its list.
   printers: () => printers() as KnownPrinter[],
   price(prices, items, finish) {

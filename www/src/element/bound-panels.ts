@@ -29,7 +29,7 @@ import { quaternion, type Settings } from "./state/settings.js";
 import { shown } from "../api/visible.js";
 
 /** @param problem failure caused by one of the settings, to show next to that setting */
-export function settingsPanel({ session, language, saveTowers }: Facts, problem: Problem | null, fields: Fields = "all"): TemplateResult {
+export function settingsPanel({ session, language, saveTowers, saveBridges }: Facts, problem: Problem | null, fields: Fields = "all"): TemplateResult {
   return html`<cusp-settings
     .fields=${fields}
     .settings=${session.settings}
@@ -40,10 +40,14 @@ export function settingsPanel({ session, language, saveTowers }: Facts, problem:
     .fixed=${session.fixed}
     .problem=${problem}
     .towers=${session.towers}
+    .bridges=${session.bridges}
+    .cureFit=${session.cureFit}
     .language=${language}
     @cusp-settings=${(event: CustomEvent<Partial<Settings>>) => session.change(event.detail)}
     @cusp-open-printer=${(event: CustomEvent<File>) => void session.openPrinter(event.detail)}
     @cusp-towers=${saveTowers}
+    @cusp-save-bridges=${saveBridges}
+    @cusp-bridges=${(event: CustomEvent<readonly string[]>) => void session.measureBridges(event.detail)}
     @cusp-dismiss=${() => session.dismiss()}
   ></cusp-settings>`;
 }

@@ -22,5 +22,6 @@ export interface Facts {
   /** Saves the print files of all plates. */
   saveAll(): void;
   saveTowers(): void;
+  saveBridges(): void;
   saveWeights(): void;
 }

@@ -230,6 +230,7 @@ export abstract class SlicerElement extends SettableElement {
       save: () => void this.#save(),
       saveAll: () => void this.#saveAll(),
       saveTowers: () => void saveMade(session.calibrateLayers()),
+      saveBridges: () => void saveMade(session.calibrateCure()),
       saveWeights: () => void saveMade(session.saveWeights()),
     });
   }

@@ -5,11 +5,12 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { FACTS, FORMATS, isFilament, usualOf } from "../../api/facts.js";
-import type { Format, MeshInfo, ModelUnit, Printer, Resin, SupportStrength } from "../../api/wire.js";
+import type { CureFit, Format, MeshInfo, ModelUnit, Printer, Resin, SupportStrength } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
+import { bridgesTable } from "../parts/bridges-table.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
@@ -79,6 +80,9 @@ const PROPERTIES = {
   /** Failure caused by one of these settings, shown next to it. */
   problem: given<Problem | null>(null),
   towers: given<TowersState>("waiting"),
+  /** Thicknesses of the test bridges as typed, and the print-through that fits them. */
+  bridges: given<readonly string[]>([]),
+  cureFit: given<CureFit | null>(null),
   language: given(languageOf()),
   /** True while the button that opens a custom printer's description is shown. */
   isOpening: own(false),
@@ -275,13 +279,16 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   #printThrough(): TemplateResult {
     const words = this.language.texts.settings;
     const { penetration_mm, print_through } = this.#cure;
+    const say = (name: string, detail?: readonly string[]): boolean => this.dispatchEvent(new CustomEvent(name, { detail }));
+    const bridges = bridgesTable(this, () => say("cusp-save-bridges"), (bridges) => say("cusp-bridges", bridges));
     const field = this.#field("overcure", words.overcure, { hint: words.overcureHint, placeholder: String(print_through?.overcure_mm ?? "") });
-    if (this.settings.overcure.trim() === "" && !print_through) return field;
+    if (this.settings.overcure.trim() === "" && !print_through) return html`${field} ${bridges}`;
     return html`${field}
       <div class="pair">
         ${this.#field("penetration", words.penetration, { placeholder: String(penetration_mm) })}
         ${this.#field("retained", words.retained, { placeholder: String(print_through?.retained ?? 1) })}
-      </div>`;
+      </div>
+      ${bridges}`;
   }
 
   #supports(): TemplateResult {

@@ -7,6 +7,7 @@ import { rows, sentence } from "../state/comparison.js";
 import { METRICS } from "../state/metric.js";
 import type { Result, Shown } from "../state/result.js";
 import { styled } from "../parts/styled.js";
+import { undersidePicture } from "../parts/underside-picture.js";
 
 export const summaryStyles = css`
   details.quiet summary {
@@ -18,6 +19,21 @@ export const summaryStyles = css`
     flex-wrap: wrap;
     gap: 0.5rem 2rem;
     margin-top: 0.5rem;
+  }
+  .underside {
+    display: block;
+    width: 8rem;
+    .solid {
+      fill: currentColor;
+      opacity: 0.35;
+    }
+    .excess {
+      fill: var(--cusp-bad);
+    }
+    .arrow {
+      fill: none;
+      stroke: currentColor;
+    }
   }
   .answer {
     display: flex;
@@ -222,10 +238,12 @@ const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
 export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
   const { mask, metric, timings_ms } = report;
   const error = (value: number): string => METRICS[metric].error(value, format);
-  const fact = (name: string, value: string): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
-  const undersides = ({ before, after }: PrintThroughReport): string => {
+  const fact = (name: string, value: string | TemplateResult): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
+  const undersides = (found: PrintThroughReport): TemplateResult => {
+    const { before, after } = found;
     const [mean, largest, off] = [after.mean_mm, after.largest_mm, before.mean_mm].map((mm) => format.error("deviation", mm)) as [string, string, string];
-    return words.undersidesOff({ mean, largest, before: off });
+    const text = words.undersidesOff({ mean, largest, before: off });
+    return html`${undersidePicture(found, text)} ${text}`;
   };
   const method = report.gpu_method === "fill" || report.gpu_method === "peel" ? words.methods[report.gpu_method] : null;
   const how = [report.adapter, method].filter((part) => part !== null).join(", ");

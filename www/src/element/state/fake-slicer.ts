@@ -2,7 +2,7 @@
 import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type Check, type Loaded, type LoadCall, type Mask, type Model, type OrientationReport, type OrientCall, type Ordered, type Plan, type PreviewedPlan, type PrintFile, type Slicer, type TestTowers, type Watch } from "../../api/index.js";
-import type { Candidate, Preview, MeshInfo, Options, Price, Prices, Report, SearchOptions, Tradeoff } from "../../api/wire.js";
+import type { Candidate, CureFit, Preview, MeshInfo, Options, Price, Prices, Report, Resin, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
 export const model: Model = { schema: SCHEMA, id: 1, name: "a.stl", file: new Blob(), reading: {}, info, own: {} };
@@ -38,6 +38,8 @@ export class FakeSlicer {
   readonly plan = (options: Options = {}, call: Watch = {}): Promise<Plan> => this.#call("plan", call, options);
   readonly export = (_options?: Options, call: Watch = {}): Promise<PrintFile> => this.#call("export", call);
   readonly calibrateLayers = (options: Options = {}, call: Watch = {}): Promise<TestTowers> => this.#call("calibrateLayers", call, options);
+  readonly calibrateCure = (options: Options = {}, call: Watch = {}): Promise<PrintFile> => this.#call("calibrateCure", call, options);
+  readonly fitCure = (_measured_mm: readonly number[], resin: Resin = {}): Promise<CureFit | null> => this.#call("fitCure", {}, { resin });
   readonly orient = (options: Options = {}, _search?: SearchOptions, call: OrientCall = {}): Promise<OrientationReport> =>
     this.#call("orient", call, options);
   readonly measure = (options: Options = {}): Promise<Candidate> => this.#call("measure", {}, options);

@@ -17,5 +17,6 @@ export const knownPrinter = (patch: Partial<KnownPrinter> & Pick<KnownPrinter, "
   variable_layers: "untried",
   variable_layers_source: "",
   growth: {},
+  proportional_greys: false,
   ...patch,
 });

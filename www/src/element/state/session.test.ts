@@ -254,6 +254,27 @@ test("test towers that fail are a failure, and they can be cancelled; settings o
   expect(await session.calibrateLayers()).toBeNull();
 });
 
+test("measured bridges set the print-through, by the resin that they were printed with", async () => {
+  await planned();
+  session.change({ penetration: "0.12" });
+  await settle();
+  const typed = session.bridges.map((_, place) => (place < 4 ? `0,${place + 1}` : ""));
+  const fitted = { penetration_mm: 0.1234, print_through: { overcure_mm: 0.03, retained: 0.7 } };
+  const measure = async (found: unknown): Promise<void> => {
+    const measuring = session.measureBridges(typed);
+    const resin = { penetration_mm: 0.12 };
+    expect(slicer.last).toMatchObject({ what: "fitCure", options: { resin } });
+    slicer.last.resolve(found);
+    await measuring;
+  };
+  await measure(null);
+  expect([session.cureFit, session.settings.overcure, session.bridges]).toEqual([null, "", typed]);
+  await measure(fitted);
+  expect(session.settings).toMatchObject({ penetration: "0.123", overcure: "0.030", retained: "0.70" });
+  // A second measurement is of the same print.
+  await measure(fitted);
+});
+
 test("while a mask is fetched, only the newest layer waits", async () => {
   await planned();
   slicer.masks.length = 0;

@@ -5,8 +5,8 @@
  */
 import type { Mask, Plan, PrintFile, Watch } from "../../api/index.js";
 import type { SlicerError } from "../../api/error.js";
-import { sameRays } from "../../api/facts.js";
-import type { Candidate, Options, Price, TradeoffPoint } from "../../api/wire.js";
+import { FACTS, sameRays } from "../../api/facts.js";
+import type { Candidate, CureFit, Options, Price, Resin, TradeoffPoint } from "../../api/wire.js";
 import { BackgroundQueries } from "./background.js";
 import { Checks } from "./checks.js";
 import { Curve, withPoint } from "./curve.js";
@@ -19,6 +19,7 @@ import type { Busy } from "../parts/progress.js";
 import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
 import { DEFAULT_SETTINGS, rotationText } from "./settings.js";
+import { read } from "./typed.js";
 
 /** Failures that may not recur on another try. */
 const BY_CHANCE: ReadonlySet<string> = new Set(["crash", "start-failed", "worker-failed"]);
@@ -105,6 +106,12 @@ export class Session extends Models {
   get turning(): Rotation | null {
     return this.#preview.turning;
   }
+
+  /** Thicknesses of the test bridges as typed, and the print-through that fits them; null if there are too few. */
+  bridges: readonly string[] = FACTS.bridges_mm.flatMap(() => FACTS.bridges.map(() => ""));
+  cureFit: CureFit | null = null;
+  /** The resin that the bridges were printed with. */
+  #bridgesResin: Resin | null = null;
 
   /** State of the test towers for the printer. */
   get towers(): TowersState {
@@ -244,6 +251,27 @@ export class Session extends Models {
     const { options, towers } = this;
     if (options === null || towers !== "ready") return null;
     return this.write("towers", (watch) => this.slicer.calibrateLayers(options, watch));
+  }
+
+  /** Makes the print file of the bridges that measure print-through; null as with towers. */
+  async calibrateCure(): Promise<PrintFile | null> {
+    const { options, towers } = this;
+    if (options === null || towers !== "ready") return null;
+    this.#bridgesResin = options.resin ?? {};
+    return this.write("towers", (watch) => this.slicer.calibrateCure(options, watch));
+  }
+
+  /** Takes measured thicknesses of bridges, and sets what the resin's print-through is by them. */
+  async measureBridges(bridges: readonly string[]): Promise<void> {
+    this.bridges = bridges;
+    // What is fitted must not count as what they were printed with.
+    this.#bridgesResin ??= this.options?.resin ?? {};
+    const measured_mm = bridges.map((text) => read(text, "mm").value ?? Number.NaN);
+    this.cureFit = await this.slicer.fitCure(measured_mm, this.#bridgesResin).catch(() => null);
+    const { cureFit } = this;
+    if (cureFit === null) return this.changed();
+    const { penetration_mm, print_through: { overcure_mm, retained } } = cureFit;
+    this.change({ penetration: penetration_mm.toFixed(3), overcure: overcure_mm.toFixed(3), retained: (retained ?? 1).toFixed(2) });
   }
 
   selectLayer(layer: number): void {
