@@ -169,7 +169,7 @@ fn a_table_prints_at_its_height_and_without_compensation_too_low() {
     let table = table();
     let resin = resin(0.0, 1.0);
     let (report, bytes) = sliced(&table, &options(resin.clone()));
-    let found = report.print_through.unwrap();
+    let found = report.print_through.clone().unwrap();
     assert_near(found.before.largest_mm, 0.189, 1e-3);
     // 0.2 mm higher cures 0.011 mm too high.
     assert_near(found.after.largest_mm, 0.011, 1e-3);
@@ -206,8 +206,10 @@ fn thin_roofs_and_gaps_that_close_are_named() {
         ]);
         // Its own layer cures 0.12 mm below itself, so even the last one of two is too deep.
         let (report, _) = sliced(&roof, &options(resin(0.12, 1.0)));
-        let found = report.print_through.unwrap();
+        let found = report.print_through.clone().unwrap();
         assert_near(found.thin_roofs_mm2, thin_mm2, 0.5);
+        let off_mm = [[3.0, 3.05]];
+        assert_eq!(found.off_mm, &off_mm[..usize::from(thin_mm2 > 0.0)]);
         let is_named = |warning: &Warning| matches!(warning, Warning::ThinRoofs { .. });
         assert_eq!(report.all_warnings().iter().any(is_named), thin_mm2 > 0.0);
     }
@@ -217,9 +219,26 @@ fn thin_roofs_and_gaps_that_close_are_named() {
         [[0.0, 0.0, 3.05], [12.0, 3.0, 3.15]],
     ]);
     let (report, _) = sliced(&gap, &options(resin(0.12, 1.0)));
-    assert_near(report.print_through.unwrap().closed_gaps_mm2, 27.0, 0.5);
+    assert_near(
+        report.print_through.clone().unwrap().closed_gaps_mm2,
+        27.0,
+        0.5,
+    );
     let is_named = |warning: &Warning| matches!(warning, Warning::ClosedGaps { .. });
     assert!(report.all_warnings().iter().any(is_named));
+    // A gap within a layer of several heights: what is below it and above it are the same samples, which are lit once.
+    let thin = boxes(&[
+        [[0.0, 0.0, 0.0], [12.0, 3.0, 3.01]],
+        [[0.0, 0.0, 0.0], [3.0, 3.0, 3.4]],
+        [[0.0, 0.0, 3.03], [12.0, 3.0, 3.4]],
+    ]);
+    let fine = Options {
+        antialias: 8,
+        ..options(resin(0.0, 1.0))
+    };
+    let (_, bytes) = sliced(&thin, &fine);
+    let lit = lit_mm(&bytes, [3.0, 0.0]);
+    assert!(lit[0][1] > 2.95 && lit[lit.len() - 1][1] > 3.35, "{lit:?}");
 }
 
 /// Heights between which pixels at this place are lit by half or more.
@@ -388,7 +407,7 @@ fn copies_on_a_plate_rise_like_a_single_model() {
         ..JobOptions::default()
     };
     let report = pollster::block_on(job.plan(&options, &mut quiet)).unwrap();
-    let found = report.plates[0].print_through.unwrap();
+    let found = report.plates[0].print_through.clone().unwrap();
     assert_near(found.after.largest_mm, 0.011, 1e-3);
     let bytes = job.write_archive(0, Vec::new(), &mut quiet).unwrap().0;
     for x_mm in [-4.5, 10.5] {
@@ -447,7 +466,7 @@ fn undersides_print_within_half_a_step() {
     let resin = resin(0.02, 1.0);
     for (name, solid) in undersides() {
         let (report, bytes) = sliced(&solid, &options(resin.clone()));
-        let found = report.print_through.unwrap();
+        let found = report.print_through.clone().unwrap();
         // Half of a layer, and the slope across half of a pixel, which columns cannot follow.
         let measured = cured(&solid, &bytes, &resin);
         let slack_mm = measured.half_pixel_diagonal_mm + 0.005;
@@ -532,7 +551,10 @@ fn greys_put_bottoms_between_those_of_layers() {
             };
             let (report, bytes) = sliced(&solid, &options);
             let measured = cured(&solid, &bytes, &resin);
-            (report.print_through.unwrap().after, measured.print_to_model)
+            (
+                report.print_through.clone().unwrap().after,
+                measured.print_to_model,
+            )
         });
         // Eighths of a layer: without, half of one.
         assert!(grey.0.mean_mm < 0.006, "{name}: {grey:?}");

@@ -597,7 +597,7 @@ pub(super) fn report_of(
         resin_ml: solid.volume_mm3 / 1e3,
         printer: output.printer.as_ref().map(|printer| printer.name.clone()),
         snapped_mm: findings.snapped_mm.clone(),
-        print_through: *print_through,
+        print_through: print_through.clone(),
         metric: layering.metric,
         unit: layering.metric.unit().to_owned(),
         source: layering.source,

@@ -26,7 +26,7 @@ pub struct BottomErrors {
 }
 
 /// Print-through of a plan: errors of surfaces that face down, outside the first layer and supports.
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize)]
+#[derive(Debug, Clone, PartialEq, Default, Serialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 pub struct PrintThroughReport {
@@ -42,6 +42,8 @@ pub struct PrintThroughReport {
     pub thin_roofs_mm: f64,
     /// Area of gaps that light through their roof closes.
     pub closed_gaps_mm2: f64,
+    /// Ranges of heights in which surfaces stay out of tolerance after compensation, half of the layer where the metric is no distance.
+    pub off_mm: Vec<[f64; 2]>,
     /// The first thin roof and the first closed gap, from the middle of their models and above the plate.
     #[serde(skip)]
     pub(crate) thin_at_mm: [f64; 3],
@@ -52,6 +54,9 @@ pub struct PrintThroughReport {
 /// The least area of roofs and gaps that is worth a warning. Edges of wedges make up for less than this in most models.
 const LEAST_MM2: f64 = 4.0;
 
+/// The least area of a layer out of tolerance that is reported. Most models have a few rays at edges.
+const LEAST_OFF_MM2: f64 = 0.5;
+
 /// Rows of a band.
 const BAND_ROWS: usize = 64;
 
@@ -59,7 +64,7 @@ const BAND_ROWS: usize = 64;
 const MOST_CURES: usize = 8;
 
 /// Sums over rays.
-#[derive(Clone, Copy, Default)]
+#[derive(Clone, Default)]
 struct Tally {
     rays: u64,
     before: [f64; 2],
@@ -68,6 +73,8 @@ struct Tally {
     thin: u64,
     thin_mm: f64,
     closed: u64,
+    /// Rays out of tolerance, by the layer that the surface is in.
+    off: Vec<u64>,
     /// The first ray of each, and a height.
     thin_at: Option<(usize, f64)>,
     closed_at: Option<(usize, f64)>,
@@ -91,6 +98,9 @@ impl Tally {
             *largest_mm = largest_mm.max(its_mm);
             *sum_mm += its_sum_mm;
         }
+        for (sum, rays) in self.off.iter_mut().zip(&other.off) {
+            *sum += rays;
+        }
         self.rays += other.rays;
         self.thin += other.thin;
         self.thin_mm = self.thin_mm.max(other.thin_mm);
@@ -101,7 +111,7 @@ impl Tally {
 }
 
 /// Measures the masks that make up for a cure, under that cure and under others. The areas are those of one copy of the model. `None` if
-/// the masks make up for a constant distance.
+/// the masks make up for a constant distance. Without a tolerance, half of the layer is out of tolerance.
 ///
 /// Cost: linear in hits.
 ///
@@ -113,6 +123,7 @@ pub(crate) fn print_through(
     samples: Samples,
     raise: &Raise,
     others: &[Cure],
+    tolerance_mm: Option<f64>,
     progress: &mut Progress<'_>,
 ) -> Result<Option<PrintThroughReport>, Cancelled> {
     let Raise::Cured { cure, .. } = raise else {
@@ -127,15 +138,19 @@ pub(crate) fn print_through(
     let (width, height) = (ldi.grid.width as usize, ldi.grid.height as usize);
     let bands = (0..height).step_by(BAND_ROWS);
     let bands = bands.map(|row| row..(row + BAND_ROWS).min(height));
-    let mut all = Tally::default();
+    let empty = Tally {
+        off: vec![0; plan.layers()],
+        ..Tally::default()
+    };
+    let mut all = empty.clone();
     parallel::map_in_groups(
         bands,
         |rows: Range<usize>| {
-            let mut tally = Tally::default();
+            let mut tally = empty.clone();
             for ray in rows.start * width..rows.end * width {
                 let mut lights = Lights::default();
                 entries.each_cured(cure, ldi.ray(ray), ldi.classes, &mut |range| {
-                    lights.pass(ray, range, cure, others, &mut tally);
+                    lights.pass(ray, range, cure, others, tolerance_mm, &mut tally);
                 });
             }
             tally
@@ -173,10 +188,29 @@ pub(crate) fn print_through(
         within: within.fold(after, BottomErrors::largest),
         thin_roofs_mm2: area_mm2(all.thin),
         thin_roofs_mm: all.thin_mm,
+        off_mm: joined_mm(
+            all.off
+                .iter()
+                .zip(plan.z_mm().windows(2))
+                .filter(|&(&rays, _)| area_mm2(rays) >= LEAST_OFF_MM2)
+                .map(|(_, ends)| [ends[0], ends[1]]),
+        ),
         closed_gaps_mm2: area_mm2(all.closed),
         thin_at_mm: at_mm(all.thin_at),
         closed_at_mm: at_mm(all.closed_at),
     }))
+}
+
+/// Ranges of heights in ascending order, those that touch as one.
+fn joined_mm(ranges_mm: impl Iterator<Item = [f64; 2]>) -> Vec<[f64; 2]> {
+    let mut joined: Vec<[f64; 2]> = Vec::new();
+    for [low_mm, high_mm] in ranges_mm {
+        match joined.last_mut() {
+            Some(last) if low_mm <= last[1] => last[1] = last[1].max(high_mm),
+            _ => joined.push([low_mm, high_mm]),
+        }
+    }
+    joined
 }
 
 impl BottomErrors {
@@ -200,7 +234,10 @@ impl PrintThroughReport {
 
     /// The report of two models: areas add up, and the larger errors count.
     pub(crate) fn and(self, other: &Self) -> Self {
+        let mut off_mm = [&self.off_mm[..], &other.off_mm].concat();
+        off_mm.sort_by(|a, b| a[0].total_cmp(&b[0]));
         Self {
+            off_mm: joined_mm(off_mm.into_iter()),
             before: self.before.largest(other.before),
             after: self.after.largest(other.after),
             within: self.within.largest(other.within),
@@ -255,6 +292,7 @@ impl Lights {
         range: &CuredRange,
         cure: &Cure,
         others: &[Cure],
+        tolerance_mm: Option<f64>,
         tally: &mut Tally,
     ) {
         let CuredRange { lit, z_mm, .. } = *range;
@@ -271,7 +309,11 @@ impl Lights {
             let bottom_mm = cure.bottom_mm(lit, self.after);
             let error_mm = bottom_mm - z_mm;
             tally.rays += 1;
-            if first + 1 == end && error_mm < -0.5 * cure.thickness_mm(first) {
+            let half_mm = 0.5 * cure.thickness_mm(first);
+            if error_mm.abs() > tolerance_mm.unwrap_or(half_mm) {
+                tally.off[range.unraised_layer] += 1;
+            }
+            if first + 1 == end && error_mm < -half_mm {
                 tally.thin += 1;
                 tally.thin_at = tally.thin_at.or(Some((ray, z_mm)));
                 tally.thin_mm = tally.thin_mm.max(-error_mm);

@@ -63,7 +63,7 @@ test.skipIf(cusp === null)("test bridges are those of the command line, and thei
       await page.keyboard.press("Tab");
     }
   }
-  await page.getByText(/Fits to 0(\.00\d)? mm/u).waitFor();
+  await page.getByText(/Fits to 0(\.00\d)?\smm/u).waitFor();
   await settled(page);
   const value = async (label: string): Promise<number> => Number(await page.getByLabel(label).inputValue());
   expect(await value("Print-through: overcure")).toBeCloseTo(0.03, 2);

@@ -121,20 +121,32 @@ impl Planned {
             return Ok(None);
         };
         let others = Cure::within(&self.plan, &self.layering.resin);
+        let is_distance = self.layering.metric.is_distance();
+        let tolerance_mm = is_distance.then_some(self.findings.tolerance);
         let mut all: Option<PrintThroughReport> = None;
         for model in &self.models {
             let Ok(ldi) = model.sampled().ldi() else {
                 continue;
             };
             let samples = model.sampled().sampling.samples;
-            let its = print_through(ldi, &self.plan, samples, &raise, &others, &mut |_| {
-                progress(1.0)
-            })?;
+            let mut within = |_| progress(1.0);
+            let its = print_through(
+                ldi,
+                &self.plan,
+                samples,
+                &raise,
+                &others,
+                tolerance_mm,
+                &mut within,
+            )?;
             let Some(its) = its else {
                 return Ok(None);
             };
             let its = its.of_copies(model.copies);
-            all = Some(all.map_or(its, |all| all.and(&its)));
+            all = Some(match all {
+                Some(all) => all.and(&its),
+                None => its,
+            });
         }
         Ok(all)
     }

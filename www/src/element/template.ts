@@ -146,7 +146,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
       ? html`<section class="card" part="profile" aria-label=${texts.chart.region}>${chartPanel(drawn)}</section>`
       : nothing}
     ${panels.has("orientation")
-      ? html`<section class="card span" part="orientation" aria-label=${texts.orientation.title}>${orientationPanel(drawn)}</section>`
+      ? html`<section class="card span" part="orientation" aria-label=${texts.sections.orientation}>${orientationPanel(drawn)}</section>`
       : nothing}
     ${panels.has("quality") && result.report.planner !== "uniform"
       ? html`<section class="card" part="quality" aria-label=${texts.quality.title}>

@@ -6,6 +6,8 @@ import "../workbench/texts.js";
 import "./findings.js";
 import { languageOf } from "./index.js";
 import { ENGLISH, isFormat, PLACEHOLDER, type Dictionary } from "./messages.js";
+import "./bridges.js";
+import "./orientation.js";
 import "./painting.js";
 import "./placing.js";
 import "./problems.js";

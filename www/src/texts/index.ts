@@ -6,7 +6,6 @@ import { FORMAT_WORDS, formatOf } from "./format.js";
 import { ENGLISH, room, type Bound, type Dictionary, type Spoken } from "./messages.js";
 import { model } from "./model.js";
 import { offers } from "./offers.js";
-import { orientation } from "./orientation.js";
 import { plan } from "./plan.js";
 import { plate } from "./plate.js";
 import { settings } from "./settings.js";
@@ -16,7 +15,7 @@ import { warningNouns, warnings } from "./warnings.js";
 export type { Format } from "./format.js";
 
 /** English of the element, except for what is fetched with its panel. */
-const ELEMENT = { format: FORMAT_WORDS, ...model, ...settings, ...plan, ...plate, ...view, ...orientation, offers, warnings, nouns: warningNouns } as const;
+const ELEMENT = { format: FORMAT_WORDS, ...model, ...settings, ...plan, ...plate, ...view, offers, warnings, nouns: warningNouns } as const;
 
 const elementTexts = room("", ELEMENT);
 

@@ -55,16 +55,8 @@ export const plan = {
     writing: "Writing test towers…",
     measure: "Two small towers to measure with a caliper. If they are {half} and {oneAndHalf}\u00a0mm high, the printer takes a thickness for each layer; if {half} and {one}\u00a0mm, or {one} and {two}\u00a0mm, it takes one for all.",
   },
-  /** Test bridges, which measure the print-through of a resin. */
-  bridges: {
-    title: "Measure print-through",
-    hint: "Bridges of several layers on a small print. Print it, wash and cure it, and type how thick each bridge is.",
-    download: "Download test bridges",
-    caption: "Measured thickness in mm",
-    layers: "Layers",
-    cell: "{layers} layers of {thickness}",
-    fitted: "Fits to {residual}. Overcure {overcureLeast} to {overcureMost}\u00a0mm, penetration {penetrationLeast} to {penetrationMost}\u00a0mm, retained dose {retainedLeast} to {retainedMost}.",
-  },
+  /** Sections of the page. */
+  sections: { orientation: "Orientation" },
   /** Gain of the plan over the best uniform layers within tolerance; `uniform` is their thickness, `figure` their number or time. */
   gain: {
     over: "{subject} is {error}, more than the {tolerance} allowed.",
@@ -125,6 +117,7 @@ export const plan = {
     title: "Profile and plan",
     line: "Profile: the further right, the thinner the layers",
     colours: "Layer thickness",
+    off: "Undersides out of tolerance",
     hint: "Click to see a layer. Drag to zoom.",
     touchHint: "Tap to see a layer. Pinch to zoom.",
     at: "At {height}: {density}",

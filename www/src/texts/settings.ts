@@ -95,6 +95,7 @@ export const settings = {
     overcureHint: "Depth to which a layer cures below itself. Overhangs then print at their true height.",
     penetration: "Penetration depth",
     retained: "Retained dose",
+    measure: "Measure print-through",
   },
   faults: {
     number: "Enter a number, {range}.",

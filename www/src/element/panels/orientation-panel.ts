@@ -5,6 +5,7 @@ import type { Found } from "../../api/index.js";
 import type { ModelCalls } from "../state/selected.js";
 import type { Candidate, Metric } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
+import { orientationTexts } from "../../texts/orientation.js";
 import { gradient, type PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { define } from "../define.js";
@@ -79,13 +80,13 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   override render(): TemplateResult {
     const { searched, language } = this;
-    const { orientation: words } = language.texts;
+    const words = orientationTexts(language);
     if (searched === null) return html`${nothing}`;
     const { found, busy, isCurrent, isPossible } = searched;
     return html`
       <span class="probe"></span>
       <div class="head">
-        <h3>${words.title}</h3>
+        <h3>${language.texts.sections.orientation}</h3>
         ${busy === null
           ? html`<button class="small find" ?disabled=${!isPossible} @click=${() => this.#say("cusp-search", null)}>
               ${found === null || isCurrent ? words.find : words.again}
@@ -102,7 +103,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   #aims({ aims, options }: Searched): TemplateResult {
     const { texts, format } = this.language;
-    const { orientation: words } = texts;
+    const words = orientationTexts(this.language);
     const { alpha, cost, quality } = aims;
     const errors = texts.metrics[options?.metric ?? this.metric];
     const qualities = { error: errors.head, ...words.qualities };
@@ -147,7 +148,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   /** Field for the maximum of a metric; empty for no limit. */
   #limit(name: keyof typeof LIMITS, aims: Aims): TemplateResult {
-    const { limits } = this.language.texts.orientation;
+    const { limits } = orientationTexts(this.language);
     const field = LIMITS[name];
     return html`<label class="field">
       <span>${limits[name]}</span>
@@ -175,7 +176,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   #results(searched: Searched, found: Found): TemplateResult {
     const { best, busy, isCurrent } = searched;
-    const { texts } = this.language;
+    const words = orientationTexts(this.language);
     const fits = found.candidates.some((candidate) => candidate?.excluded === null);
     const isPrintable = found.candidates.some((candidate) => candidate?.metrics != null);
     return html`<div class="results ${busy === null && !isCurrent ? "old" : ""}">
@@ -193,17 +194,17 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         ${this.#legend(found)} ${this.#metrics(searched)}
       </div>
       <div class="best">
-        ${best.length > 0 ? html`${this.#now(searched)}<h4>${texts.orientation.best}</h4>` : nothing}
+        ${best.length > 0 ? html`${this.#now(searched)}<h4>${words.best}</h4>` : nothing}
         ${this.isUnpictured && best.length > 0 ? partFailure(this.language, () => void this.#drawThumbnails()) : nothing}
         ${best.map((candidate, i) => this.#choice(candidate, i, searched))}
-        ${!fits && busy === null ? html`<p class="quiet">${isPrintable ? texts.orientation.beyond : texts.orientation.none}</p>` : nothing}
+        ${!fits && busy === null ? html`<p class="quiet">${isPrintable ? words.beyond : words.none}</p>` : nothing}
       </div>
     </div>`;
   }
 
   #legend({ candidates }: Found): TemplateResult {
-    const { texts, format } = this.language;
-    const { orientation: words } = texts;
+    const { format } = this.language;
+    const words = orientationTexts(this.language);
     const range = energyRange(candidates);
     const hasExcluded = candidates.some((candidate) => candidate !== null && candidate.excluded !== null);
     return html`<div class="legend">
@@ -225,7 +226,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   /** Metrics of the candidate under the pointer, or chosen on the sphere. */
   #metrics({ options }: Searched): TemplateResult {
     const { looked, language } = this;
-    const { orientation: words } = language.texts;
+    const words = orientationTexts(language);
     if (looked === null) {
       return html`<p class="looked quiet hint"><span class="hovers">${words.point}</span><span class="taps">${words.tap}</span></p>`;
     }
@@ -242,7 +243,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   /** The current pose, for comparison; without figures until they are known, and while the model is being turned. */
   #now(searched: Searched): TemplateResult {
-    const { orientation: words } = this.language.texts;
+    const words = orientationTexts(this.language);
     const now = this.#measuredNow(searched);
     return html`<div class="now ${now === null ? "unknown" : ""}" role="group" aria-label=${words.current}>
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
@@ -256,7 +257,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   #choice(candidate: Candidate, place: number, searched: Searched): TemplateResult {
     const { language } = this;
-    const { texts, format } = language;
+    const { format } = language;
     const isApplied = isPose(candidate.rotation, this.rotation);
     return html`<button
       class="pose"
@@ -265,12 +266,12 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     >
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
-      <span class="visually-hidden">${texts.orientation.rank({ rank: format.count(place + 1) })}:</span>
+      <span class="visually-hidden">${orientationTexts(language).rank({ rank: format.count(place + 1) })}:</span>
       <span class="what">
         ${this.#figures(
           candidate,
           searched,
-          isApplied ? [texts.orientation.current] : this.#differences(candidate, searched),
+          isApplied ? [orientationTexts(language).current] : this.#differences(candidate, searched),
         )}
       </span>
     </button>`;
@@ -280,7 +281,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   #figures({ metrics }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
     const { language } = this;
     const { texts } = language;
-    const { orientation: words } = texts;
+    const words = orientationTexts(language);
     if (metrics === null) return html`${nothing}`;
     const metric = options?.metric ?? this.metric;
     const of = (term: Term): string => figure(term, metrics, metric, language);
@@ -313,14 +314,14 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     const { texts, format } = language;
     if (looked !== null) {
       const { excluded, metrics } = looked.candidate;
-      if (excluded !== null) return texts.orientation.why[excluded];
+      if (excluded !== null) return orientationTexts(language).why[excluded];
       if (metrics === null) return "";
       const metric = options?.metric ?? this.metric;
       const [time, error] = (["time", "error"] as const).map((term) => figure(term, metrics, metric, language)) as [string, string];
-      return texts.orientation.said({ layers: metrics.layers, time, head: texts.metrics[metric].head, error });
+      return orientationTexts(language).said({ layers: metrics.layers, time, head: texts.metrics[metric].head, error });
     }
     if (busy !== null) return texts.progress[busy.stage];
-    return found !== null && best.length > 0 ? texts.orientation.found({ count: format.count(found.candidates.length) }) : "";
+    return found !== null && best.length > 0 ? orientationTexts(language).found({ count: format.count(found.candidates.length) }) : "";
   }
 
   /** Draws the best poses. The model's positions are fetched for this and then dropped. */
@@ -372,7 +373,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 /** The known metrics, score and size of a candidate: name, value, and an explanation where needed. */
 export function metricRows({ metrics, size_mm, energy }: Candidate, metric: Metric, language: Language): [string, string, string?][] {
   const { texts, format } = language;
-  const { orientation: words } = texts;
+  const words = orientationTexts(language);
   const rows: [string, string, string?][] = [];
   if (metrics !== null) {
     const of = (term: Term): string => figure(term, metrics, metric, language);

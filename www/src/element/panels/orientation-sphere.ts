@@ -3,6 +3,7 @@ import { css, html, nothing, svg, type PropertyValues, type SVGTemplateResult, t
 import type { Found } from "../../api/index.js";
 import type { Candidate } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
+import { orientationTexts } from "../../texts/orientation.js";
 import { drawSphere, Nearest, placeOf, seenAt, type Place, type Side } from "../../view/gaussian.js";
 import { colourAt, type PaletteName, type Rgb } from "../../view/legend/palette.js";
 import type { Rotation, Triple } from "../../view/scene/pose.js";
@@ -195,7 +196,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
   }
 
   override render(): TemplateResult {
-    const { orientation: words } = this.language.texts;
+    const words = orientationTexts(this.language);
     return html`<div
       class="pair"
       tabindex="0"

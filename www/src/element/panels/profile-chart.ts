@@ -119,6 +119,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
                 ${words.colours}
                 <span class="limits figures">${format.tick(min)} <span class="scale"></span> ${format.fine(max)}</span>
               </li>
+              ${data.off_mm.length === 0 ? nothing : html`<li><span class="off-mark"></span>${words.off}</li>`}
             </ul>
             <div class="foot figures">
               <p class="mouse ${hovered === null ? "" : "off"}">${words.hint}</p>
@@ -382,6 +383,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
       grid: colour("field"),
       paper: colour("chart-paper"),
       seam: colour("chart-seam"),
+      bad: colour("bad"),
       font: style.fontFamily,
     };
     probe.remove();

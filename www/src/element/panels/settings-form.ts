@@ -10,7 +10,7 @@ import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
-import { bridgesTable } from "../parts/bridges-table.js";
+import { adopt, FetchedPanel } from "../parts/part.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
 import { byMaker, formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
@@ -84,9 +84,14 @@ const PROPERTIES = {
   bridges: given<readonly string[]>([]),
   cureFit: given<CureFit | null>(null),
   language: given(languageOf()),
+  /** True once the table of test bridges was opened. */
+  measures: own(false),
   /** True while the button that opens a custom printer's description is shown. */
   isOpening: own(false),
 };
+
+/** Fetched on demand: a resin is measured once. */
+const bridgesCode = new FetchedPanel("bridges", () => import("../parts/bridges-table.js"));
 
 export class CuspSettings extends elementWith(PROPERTIES) {
   /** Groups of hidden settings that start expanded; null before the first update. */
@@ -279,16 +284,27 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   #printThrough(): TemplateResult {
     const words = this.language.texts.settings;
     const { penetration_mm, print_through } = this.#cure;
-    const say = (name: string, detail?: readonly string[]): boolean => this.dispatchEvent(new CustomEvent(name, { detail }));
-    const bridges = bridgesTable(this, () => say("cusp-save-bridges"), (bridges) => say("cusp-bridges", bridges));
     const field = this.#field("overcure", words.overcure, { hint: words.overcureHint, placeholder: String(print_through?.overcure_mm ?? "") });
-    if (this.settings.overcure.trim() === "" && !print_through) return html`${field} ${bridges}`;
+    const isOff = this.settings.overcure.trim() === "" && !print_through;
     return html`${field}
-      <div class="pair">
-        ${this.#field("penetration", words.penetration, { placeholder: String(penetration_mm) })}
-        ${this.#field("retained", words.retained, { placeholder: String(print_through?.retained ?? 1) })}
-      </div>
-      ${bridges}`;
+      ${isOff
+        ? nothing
+        : html`<div class="pair">
+            ${this.#field("penetration", words.penetration, { placeholder: String(penetration_mm) })}
+            ${this.#field("retained", words.retained, { placeholder: String(print_through?.retained ?? 1) })}
+          </div>`}
+      <details class="bridges" @toggle=${() => (this.measures = true)}>
+        <summary>${words.measure}</summary>
+        ${this.measures ? this.#bridges() : nothing}
+      </details>`;
+  }
+
+  #bridges(): TemplateResult | typeof nothing {
+    if (bridgesCode.code === null) return bridgesCode.instead(this, this.language);
+    const { bridgesStyles, bridgesTable } = bridgesCode.code;
+    adopt(this, bridgesStyles);
+    const say = (name: string, detail?: readonly string[]): boolean => this.dispatchEvent(new CustomEvent(name, { detail }));
+    return bridgesTable(this, () => say("cusp-save-bridges"), (bridges) => say("cusp-bridges", bridges));
   }
 
   #supports(): TemplateResult {

@@ -23,6 +23,8 @@ export interface ChartTheme {
   paper: string;
   /** Line between layers that are tall enough to distinguish. */
   seam: string;
+  /** Marks of undersides out of tolerance. */
+  bad: string;
   font: string;
 }
 
@@ -38,6 +40,10 @@ const SEAM_FROM_PX = 5;
 
 /** Allowance for rounding, as a fraction of a pixel row. */
 const EDGE = 1e-6;
+
+/** Width of these marks, and their least height. */
+const OFF_PX = 5;
+const LEAST_OFF_PX = 2;
 
 /** Opacity of a band beyond the profile. */
 const FADED = 0.45;
@@ -134,6 +140,21 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
   ctx.restore();
 }
 
+/** Marks undersides that stay out of tolerance along the axis of heights. */
+function drawOff(u: uPlot, { off_mm }: ChartData, theme: ChartTheme): void {
+  const { ctx, bbox } = u;
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.clip();
+  ctx.fillStyle = theme.bad;
+  for (const [low, high] of off_mm) {
+    const [bottom, top] = [low, high].map((z_mm) => u.valToPos(z_mm, "x", true)) as [number, number];
+    ctx.fillRect(bbox.left, top, OFF_PX * devicePixelRatio, Math.max(bottom - top, LEAST_OFF_PX * devicePixelRatio));
+  }
+  ctx.restore();
+}
+
 /** uPlot options for a chart of this size in CSS pixels. Axis labels are HTML outside, where long ones can wrap. */
 export function chartOptions(
   data: ChartData,
@@ -187,6 +208,7 @@ export function chartOptions(
           drawFaded(u, pattern, theme);
         },
       ],
+      draw: [(u) => drawOff(u, data, theme)],
     },
   };
 }

@@ -105,6 +105,7 @@ const data: ChartData = {
   bin_mm: 0.01,
   z_mm: [0, 0.1, 0.2, 0.4],
   thickness_mm: [0.1, 0.1, 0.2],
+  off_mm: [],
   limits: [0.1, 0.2],
 };
 

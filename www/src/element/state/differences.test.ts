@@ -1,5 +1,6 @@
 import { expect, test } from "vitest";
 import { languageOf, LANGUAGES } from "../../texts/index.js";
+import { orientationTexts } from "../../texts/orientation.js";
 import { differences, figure, type Metrics } from "./differences.js";
 import { DEFAULT_AIMS } from "./orientation.js";
 
@@ -39,7 +40,7 @@ test("what reads the same is no difference, and only the cost is said to be the 
 test("every language says which is less", () => {
   for (const code of LANGUAGES) {
     const { texts } = languageOf(code);
-    const { differs } = texts.orientation;
+    const { differs } = orientationTexts(languageOf(code));
     const pairs = (["less", "more"] as const).map((way) => [
       differs.layers[way]({ count: 12 }),
       differs.time[way]({ amount: "5 min" }),

@@ -1,6 +1,7 @@
 /** Metrics of orientations as text, and differences between two orientations. */
 import type { Candidate, Metric } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
+import { orientationTexts } from "../../texts/orientation.js";
 import { METRICS } from "./metric.js";
 import type { Aims } from "./orientation.js";
 
@@ -54,8 +55,8 @@ export function figure(term: Term, metrics: Metrics, metric: Metric, language: L
  * read the same are omitted, but an equal cost is stated.
  */
 export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims, metric: Metric, language: Language): string[] {
-  const { metrics: names, orientation } = language.texts;
-  const { differs } = orientation;
+  const { metrics: names } = language.texts;
+  const { differs } = orientationTexts(language);
   const difference = (term: Term): { amount: number; written: string; isLess: boolean } | null => {
     const [value, before] = [VALUES[term](its), VALUES[term](now)];
     const write = writer(term, metric, language);

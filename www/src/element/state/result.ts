@@ -22,6 +22,8 @@ export interface Shown {
   thickness_mm: readonly number[];
   /** Thicknesses at the ends of the colour scale, mm. */
   limits: readonly [number, number];
+  /** Ranges of heights in which undersides stay out of tolerance, mm. */
+  off_mm: readonly (readonly [number, number])[];
   layers: number;
   print_time_s: number;
   /** Height of the model above the plate, mm. */
@@ -49,7 +51,8 @@ interface Added {
 export function shownOf(report: Report | Preview, profile: Float32Array, added: Added | null = null): Shown {
   const lift_mm = "lift_mm" in report ? report.lift_mm : liftOf(report);
   const { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, layer_range_mm: limits } = report;
-  return { metric, bin_mm, z_mm, thickness_mm, layers, print_time_s, profile, limits, lift_mm, supports: filled(added?.supports), voids: filled(added?.voids) };
+  const off_mm = ("print_through" in report ? report.print_through?.off_mm : null) ?? [];
+  return { metric, bin_mm, z_mm, thickness_mm, off_mm, layers, print_time_s, profile, limits, lift_mm, supports: filled(added?.supports), voids: filled(added?.voids) };
 }
 
 const filled = (positions: Float32Array | undefined): Float32Array | null => (positions === undefined || positions.length === 0 ? null : positions);

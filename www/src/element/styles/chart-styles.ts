@@ -75,6 +75,14 @@ export const chartStyles = css`
     border-top: 2px solid var(--cusp-chart-ink);
     vertical-align: middle;
   }
+  .off-mark {
+    display: inline-block;
+    width: 0.3125rem;
+    height: 0.75rem;
+    margin-inline-end: 0.375rem;
+    background: var(--cusp-bad);
+    vertical-align: middle;
+  }
   .scale {
     background: ${unsafeCSS(gradient("classic"))};
     width: 3rem;

@@ -176,24 +176,4 @@ export const settingsStyles = css`
   .towers {
     margin: 0;
   }
-  .bridges table {
-    border-spacing: 0.2rem;
-    font-size: 0.85em;
-    margin: 0.5rem 0;
-    width: 100%;
-  }
-  .bridges caption,
-  .bridges tbody th {
-    text-align: start;
-  }
-  .bridges th {
-    font-weight: normal;
-    white-space: nowrap;
-  }
-  .bridges input {
-    box-sizing: border-box;
-    min-width: 0;
-    padding-inline: 0.25rem;
-    width: 100%;
-  }
 `;
