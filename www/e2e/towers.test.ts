@@ -65,6 +65,8 @@ test.skipIf(cusp === null)("test bridges are those of the command line, and thei
   }
   await page.getByText(/Fits to 0(\.00\d)?\smm/u).waitFor();
   await settled(page);
+  expect(await page.getByLabel("1 layers of 0.05 mm").inputValue()).not.toBe("");
+  expect(await page.getByLabel("8 layers of 0.1 mm").inputValue()).not.toBe("");
   const value = async (label: string): Promise<number> => Number(await page.getByLabel(label).inputValue());
   expect(await value("Print-through: overcure")).toBeCloseTo(0.03, 2);
   expect(await value("Penetration depth")).toBeCloseTo(penetration_mm, 2);

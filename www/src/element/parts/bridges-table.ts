@@ -15,11 +15,9 @@ export const bridgesStyles = css`
     width: 100%;
   }
   .bridges caption,
-  .bridges tbody th {
-    text-align: start;
-  }
   .bridges th {
     font-weight: normal;
+    text-align: start;
     white-space: nowrap;
   }
   .bridges input {
@@ -57,13 +55,13 @@ export function bridgesTable({ bridges, cureFit, towers, language }: Bridges, sa
       <thead>
         <tr>
           <th scope="col">${words.layers}</th>
-          ${FACTS.bridges.map((layers) => html`<th scope="col">${format.count(layers)}</th>`)}
+          ${FACTS.bridges_mm.map((layer_mm) => html`<th scope="col">${format.fine(layer_mm)}</th>`)}
         </tr>
       </thead>
       <tbody>
-        ${FACTS.bridges_mm.map((layer_mm, row) => html`<tr>
-          <th scope="row">${format.fine(layer_mm)}</th>
-          ${FACTS.bridges.map((layers, column) => cell(row * FACTS.bridges.length + column, layers, layer_mm))}
+        ${FACTS.bridges.map((layers, row) => html`<tr>
+          <th scope="row">${format.count(layers)}</th>
+          ${FACTS.bridges_mm.map((layer_mm, column) => cell(column * FACTS.bridges.length + row, layers, layer_mm))}
         </tr>`)}
       </tbody>
     </table>

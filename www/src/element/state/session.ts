@@ -264,11 +264,14 @@ export class Session extends Models {
   /** Takes measured thicknesses of bridges, and sets what the resin's print-through is by them. */
   async measureBridges(bridges: readonly string[]): Promise<void> {
     this.bridges = bridges;
+    this.changed();
     // What is fitted must not count as what they were printed with.
     this.#bridgesResin ??= this.options?.resin ?? {};
     const measured_mm = bridges.map((text) => read(text, "mm").value ?? Number.NaN);
-    this.cureFit = await this.slicer.fitCure(measured_mm, this.#bridgesResin).catch(() => null);
-    const { cureFit } = this;
+    const cureFit = await this.slicer.fitCure(measured_mm, this.#bridgesResin).catch(() => null);
+    // Another thickness was typed in the meantime.
+    if (this.bridges !== bridges) return;
+    this.cureFit = cureFit;
     if (cureFit === null) return this.changed();
     const { penetration_mm, print_through: { overcure_mm, retained } } = cureFit;
     this.change({ penetration: penetration_mm.toFixed(3), overcure: overcure_mm.toFixed(3), retained: (retained ?? 1).toFixed(2) });
