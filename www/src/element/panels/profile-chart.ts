@@ -219,6 +219,7 @@ export class CuspChart extends elementWith(PROPERTIES) {
       ...options.hooks,
       // When uPlot draws, initially or after a zoom, its scales are set.
       draw: [
+        ...(options.hooks?.draw ?? []),
         (u) => {
           const { min, max } = u.scales["x"] ?? {};
           this.zoomed = min != null && max != null && max - min < 0.99 * whole;

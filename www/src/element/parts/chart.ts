@@ -140,17 +140,18 @@ function drawFaded(u: uPlot, pattern: CanvasPattern | string, theme: ChartTheme)
   ctx.restore();
 }
 
-/** Marks undersides that stay out of tolerance along the axis of heights. */
+/** Marks undersides that stay out of tolerance, beside the plot, whose colours have every red. */
 function drawOff(u: uPlot, { off_mm }: ChartData, theme: ChartTheme): void {
   const { ctx, bbox } = u;
+  const [width, least] = [OFF_PX, LEAST_OFF_PX].map((px) => px * devicePixelRatio) as [number, number];
   ctx.save();
   ctx.beginPath();
-  ctx.rect(bbox.left, bbox.top, bbox.width, bbox.height);
+  ctx.rect(bbox.left - width, bbox.top, width, bbox.height);
   ctx.clip();
   ctx.fillStyle = theme.bad;
   for (const [low, high] of off_mm) {
     const [bottom, top] = [low, high].map((z_mm) => u.valToPos(z_mm, "x", true)) as [number, number];
-    ctx.fillRect(bbox.left, top, OFF_PX * devicePixelRatio, Math.max(bottom - top, LEAST_OFF_PX * devicePixelRatio));
+    ctx.fillRect(bbox.left - width, top, width, Math.max(bottom - top, least));
   }
   ctx.restore();
 }
