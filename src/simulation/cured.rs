@@ -80,6 +80,11 @@ impl Doses<'_> {
         part * ((reference_mm - depth_mm) / resin.penetration_mm).exp()
     }
 
+    /// The same where the layer is grey.
+    fn of_grey(&self, grey: u8, layer: usize, z_mm: f64) -> f64 {
+        f64::from(grey) / f64::from(u8::MAX) * self.of(layer, z_mm)
+    }
+
     /// The cured bottom of the lowest of a column's lit ranges, given with those above it, all from the highest down, and with the
     /// brightness of its grey layers.
     fn bottom_mm(&self, ranges: &[[usize; 2]], greys: &BTreeMap<usize, u8>) -> f64 {
@@ -92,7 +97,7 @@ impl Doses<'_> {
         }
         let of = |layer| {
             let grey = greys.get(&layer).copied().unwrap_or(u8::MAX);
-            f64::from(grey) / f64::from(u8::MAX) * self.of(layer, z_mm)
+            self.of_grey(grey, layer, z_mm)
         };
         let own = of(lowest);
         let far_mm = z_mm + FAR * self.resin.penetration_mm;
@@ -180,10 +185,7 @@ fn grey_ranges(
     doses: &Doses<'_>,
 ) -> Vec<[usize; 2]> {
     let is_lit = |layer: usize| match greys.get(&layer) {
-        Some(&grey) => {
-            f64::from(grey) / f64::from(u8::MAX) * doses.of(layer, doses.planes_mm[layer + 1])
-                >= 1.0
-        }
+        Some(&grey) => doses.of_grey(grey, layer, doses.planes_mm[layer + 1]) >= 1.0,
         None => printed.masks[layer].is_lit(i32::from(column), row),
     };
     let mut ranges: Vec<[usize; 2]> = Vec::new();

@@ -76,7 +76,7 @@ impl Measured {
 const GREY_RESIDUAL: f32 = 2.0;
 
 /// Weights of facets where greys set the bottoms of surfaces that face down: their stairs are those of greys, not of layers. The first
-/// layer stays as it is.
+/// layer is not compensated, so facets in it keep their weights.
 pub fn weights_with_greys(
     mesh: &Mesh,
     layering: &Layering,

@@ -9,7 +9,7 @@ import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./callbacks.js";
 import { endUpperHalves } from "./vectors.js";
-import type { Help, KnownPrinter, OnProgress, PackedCandidates, Remote, SearchStep } from "./wire.js";
+import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, Remote, SearchStep, Written } from "./wire.js";
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
@@ -32,6 +32,13 @@ async function compile(address: string): Promise<WebAssembly.Module> {
   // Streaming needs the right content type, which plain file hosts do not always send.
   const typed = response.headers.get("content-type")?.startsWith("application/wasm") ?? false;
   return typed ? WebAssembly.compileStreaming(response) : WebAssembly.compile(await response.arrayBuffer());
+}
+
+/** Writes a calibration print by a function of the core. */
+async function calibrated(write: typeof calibrate_layers, options: Options, progress: OnProgress): Promise<Written> {
+  const sink = new BlobSink();
+  const report = await write(options, sink.take, progress);
+  return { blob: sink.finish(), report };
 }
 
 /** Bytes that can be transferred: a view of the core's memory, or of a larger buffer, is copied. */
@@ -196,16 +203,8 @@ const api: Remote = {
     const results = tasks.map(({ number, directions }) => ({ number, candidates: measure(directions) }));
     return Comlink.transfer(results, results.map(({ candidates }) => candidates.buffer));
   },
-  async calibrateLayers(options, progress) {
-    const sink = new BlobSink();
-    const report = await calibrate_layers(options, sink.take, progress);
-    return { blob: sink.finish(), report };
-  },
-  async calibrateCure(options, progress) {
-    const sink = new BlobSink();
-    const report = await calibrate_cure(options, sink.take, progress);
-    return { blob: sink.finish(), report };
-  },
+  calibrateLayers: (options, progress) => calibrated(calibrate_layers, options, progress),
+  calibrateCure: (options, progress) => calibrated(calibrate_cure, options, progress),
   fitCure: (measured_mm, resin) => fit_cure(Float64Array.from(measured_mm), resin) ?? null,
   // The core fills in the defaults of its list.
   printers: () => printers() as KnownPrinter[],

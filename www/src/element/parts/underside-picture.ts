@@ -5,7 +5,7 @@ import type { PrintThroughReport } from "../../api/wire.js";
 /** Units of the drawing: width of an overhang, its thickness, and the longest excess below it. */
 const [WIDTH, THICK, LONGEST] = [44, 14, 22];
 
-/** @param label what the picture says, in words */
+/** @param label the picture in words */
 export function undersidePicture({ before, after }: PrintThroughReport, label: string): TemplateResult {
   const scale = LONGEST / Math.max(before.mean_mm, after.mean_mm, Number.EPSILON);
   const overhang = (x: number, mm: number): TemplateResult => svg`<g transform="translate(${x} 2)">

@@ -261,11 +261,11 @@ export class Session extends Models {
     return this.write("towers", (watch) => this.slicer.calibrateCure(options, watch));
   }
 
-  /** Takes measured thicknesses of bridges, and sets what the resin's print-through is by them. */
+  /** Sets the print-through of the resin by measured thicknesses of the bridges. */
   async measureBridges(bridges: readonly string[]): Promise<void> {
     this.bridges = bridges;
     this.changed();
-    // What is fitted must not count as what they were printed with.
+    // The bridges were printed before any fit.
     this.#bridgesResin ??= this.options?.resin ?? {};
     const measured_mm = bridges.map((text) => read(text, "mm").value ?? Number.NaN);
     const cureFit = await this.slicer.fitCure(measured_mm, this.#bridgesResin).catch(() => null);
