@@ -55,3 +55,12 @@ export function said(child: ChildProcess, stream: Readable | null, wanted: RegEx
     child.once("exit", (code) => reject(new Error(`${child.spawnfile} ended with ${code}: ${text}`)));
   });
 }
+
+/** Rejects if a program has not answered in time. */
+export async function within<T>(ms: number, name: string, answer: Promise<T>): Promise<T> {
+  let timer: NodeJS.Timeout | undefined;
+  const late = new Promise<never>((_, reject) => {
+    timer = setTimeout(() => reject(new Error(`${name} did not answer within ${ms / 1000} s`)), ms);
+  });
+  return Promise.race([answer, late]).finally(() => clearTimeout(timer));
+}
