@@ -1,7 +1,7 @@
 //! Print-through: depths in closed form, doses against a naive sum, masks measured as pixels, and prints measured by simulation.
 
 use cusp_slicer::archive::read::PrintFile;
-use cusp_slicer::cure::{Bridge, Cure, Light, LitRange, fit};
+use cusp_slicer::cure::{Bridge, Cure, LitRange, fit};
 use cusp_slicer::format::Format;
 use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
@@ -111,9 +111,9 @@ fn doses_are_those_of_a_sum_over_all_lit_layers() {
             solid_to_mm(high, &above),
             2e-4,
         );
-        let light: Light = cure.light_below(LitRange::white(high, high_end), None);
+        let light = cure.light_below(LitRange::white(high, high_end), None, low_end);
         let all: Vec<usize> = (low + 1..low_end).chain(high..high_end).collect();
-        let bottom_mm = cure.bottom_mm(LitRange::white(low, low_end), Some(light));
+        let bottom_mm = cure.bottom_mm(LitRange::white(low, low_end), light);
         assert_near(bottom_mm, solid_to_mm(low, &all), 2e-4);
     }
 }
@@ -509,7 +509,7 @@ fn the_grey_of_a_bottom_is_the_nearest() {
         let z_mm = cure.bottom_mm(all, None) + 0.3 * rng.f64();
         let error_mm = |range| (cure.bottom_mm(range, None) - z_mm).abs();
         for greys in [2, 4, 8] {
-            let found = cure.raised(all, None, z_mm, greys);
+            let found = cure.raised(all.first..all.end, None, z_mm, greys);
             let every = (all.first..all.end).flat_map(|first| {
                 let steps = (1..=greys).map(move |step| f64::from(step) / f64::from(greys));
                 steps.map(move |brightness| LitRange {
@@ -524,7 +524,7 @@ fn the_grey_of_a_bottom_is_the_nearest() {
             let wanted_mm = if is_sum {
                 least_mm + 1e-9
             } else {
-                error_mm(cure.raised(all, None, z_mm, 1))
+                error_mm(cure.raised(all.first..all.end, None, z_mm, 1))
             };
             assert!(
                 error_mm(found) <= wanted_mm,

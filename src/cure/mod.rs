@@ -7,11 +7,16 @@ mod fit;
 
 pub use fit::{Bridge, CureFit, FEWEST_BRIDGES, fit};
 
+use std::ops::Range;
+
 use crate::plan::Plan;
 use crate::resin::{PrintThrough, Resin, exp, ln};
 
-/// Distance over which a dose fades to nothing, in penetration depths: to 1e-13.
-const FAR: f64 = 30.0;
+/// Distance over which a dose fades to nothing, in penetration depths: to 6e-6, which moves a bottom by a nanometre.
+const FAR: f64 = 12.0;
+
+/// Maximum number of tops for which the bottom of a layer is computed in advance.
+const KNOWN_TOPS: usize = 256;
 
 /// Doses that the layers of a plan leave below them. A dose is a multiple of the critical one, from which on resin is solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -21,10 +26,23 @@ pub struct Cure {
     own: Vec<f64>,
     /// Dose at each boundary of all layers above it.
     above: Vec<f64>,
-    /// Cured bottom of each layer where all layers above it are lit.
-    bottoms_mm: Vec<f64>,
+    /// White ranges below which no light matters, by their first layer.
+    columns: Vec<Columns>,
+    /// Cured bottoms of those that end near.
+    near_mm: Vec<f64>,
     penetration_mm: f64,
     retained: f64,
+}
+
+/// White ranges from one layer upward.
+#[derive(Debug, Clone, Copy, PartialEq)]
+struct Columns {
+    /// The lowest end that is far.
+    far_end: usize,
+    /// Cured bottom of ranges with such an end.
+    far_mm: f64,
+    /// Index of the bottom of the lowest end; those of the others follow, up to the one that is far.
+    near: usize,
 }
 
 /// Lit layers of a column without a gap.
@@ -84,7 +102,8 @@ impl Cure {
         let mut cure = Self {
             own: vec![0.0; layers],
             above: vec![0.0; layers + 1],
-            bottoms_mm: vec![0.0; layers],
+            columns: Vec::with_capacity(layers),
+            near_mm: Vec::new(),
             boundaries_mm,
             penetration_mm,
             retained: print_through.retained,
@@ -93,10 +112,33 @@ impl Cure {
             let fade = cure.fade(layer, layer + 1);
             cure.own[layer] = exposures_s[layer] / reference_s * reference * fade;
             cure.above[layer] = cure.own[layer] + fade * cure.above[layer + 1];
-            let range = LitRange::white(layer, layers);
-            cure.bottoms_mm[layer] = cure.solid_to_mm(range, cure.above[layer]);
         }
+        cure.know_columns();
         cure
+    }
+
+    /// Computes the bottoms of white ranges below which no light matters.
+    fn know_columns(&mut self) {
+        let layers = self.own.len();
+        let mut far_end = 0;
+        for first in 0..layers {
+            while far_end <= layers && (far_end <= first || !self.is_far(first, far_end)) {
+                far_end += 1;
+            }
+            let bottom_mm = |end| {
+                let range = LitRange::white(first, end);
+                self.solid_to_mm(range, self.dose(range, None))
+            };
+            let near = self.near_mm.len();
+            let near_ends = first + 1..far_end.min(first + 1 + KNOWN_TOPS);
+            let near_mm: Vec<f64> = near_ends.map(bottom_mm).collect();
+            self.columns.push(Columns {
+                far_end,
+                far_mm: bottom_mm(layers),
+                near,
+            });
+            self.near_mm.extend(near_mm);
+        }
     }
 
     /// Fraction of a dose at one boundary that is left at a lower one.
@@ -124,10 +166,28 @@ impl Cure {
     }
 
     /// Cured bottom of a range that is lit from above by `light`.
+    #[inline]
     pub fn bottom_mm(&self, range: LitRange, light: Option<Light>) -> f64 {
-        if range.brightness == 1.0 && self.is_far(range.first, range.end) {
-            return self.bottoms_mm[range.first];
+        let is_known = range.brightness == 1.0 && light.is_none();
+        let known_mm = is_known.then(|| self.known_mm(range.first, range.end));
+        known_mm
+            .flatten()
+            .unwrap_or_else(|| self.computed_mm(range, light))
+    }
+
+    /// The same of a white range below which no light matters. `None` if it was not computed in advance.
+    #[inline]
+    fn known_mm(&self, first: usize, end: usize) -> Option<f64> {
+        let columns = &self.columns[first];
+        if end >= columns.far_end {
+            return Some(columns.far_mm);
         }
+        let above = end - first - 1;
+        (above < KNOWN_TOPS).then(|| self.near_mm[columns.near + above])
+    }
+
+    #[inline(never)]
+    fn computed_mm(&self, range: LitRange, light: Option<Light>) -> f64 {
         self.solid_to_mm(range, self.dose(range, light))
     }
 
@@ -136,30 +196,39 @@ impl Cure {
         self.boundaries_mm[high] - self.boundaries_mm[low] > FAR * self.penetration_mm
     }
 
-    /// The part of a range that must be lit, so that its cured bottom is nearest to `z_mm`. Its lowest layer may be grey in this number of
+    /// The part of some layers that must be lit, so that its cured bottom is nearest to `z_mm`. Its lowest layer may be grey in this number of
     /// equal steps up to white, 1 for none.
-    pub fn raised(&self, range: LitRange, light: Option<Light>, z_mm: f64, greys: u32) -> LitRange {
-        let from = |first| LitRange::white(first, range.end);
-        let error_mm = |first| self.bottom_mm(from(first), light) - z_mm;
-        let (mut below, mut below_mm) = (range.first, error_mm(range.first));
-        let mut next = None;
-        while below_mm < 0.0 && below + 1 < range.end {
-            let next_mm = error_mm(below + 1);
+    pub fn raised(
+        &self,
+        layers: Range<usize>,
+        light: Option<Light>,
+        z_mm: f64,
+        greys: u32,
+    ) -> LitRange {
+        let end = layers.end;
+        let white = |first| LitRange::white(first, end);
+        let error_mm = |range| self.bottom_mm(range, light) - z_mm;
+        let mut below = layers.start;
+        let mut below_mm = error_mm(white(below));
+        let mut nearest = (below, below_mm.abs());
+        while below_mm < 0.0 && below + 1 < end {
+            let next = below + 1;
+            let next_mm = error_mm(white(next));
+            if next_mm.abs() < nearest.1 {
+                nearest = (next, next_mm.abs());
+            }
             if next_mm > 0.0 {
-                next = Some((from(below + 1), next_mm));
                 break;
             }
-            (below, below_mm) = (below + 1, next_mm);
+            (below, below_mm) = (next, next_mm);
         }
-        let mut nearest = (from(below), below_mm.abs());
-        let greys = (greys > 1 && below_mm < 0.0)
-            .then(|| self.greys_near(from(below), light, z_mm, greys))
-            .into_iter()
-            .flatten()
-            .map(|it| (it, (self.bottom_mm(it, light) - z_mm).abs()));
-        for other in next.into_iter().chain(greys) {
-            if other.1 < nearest.1 {
-                nearest = other;
+        let mut nearest = (white(nearest.0), nearest.1);
+        if greys > 1 && below_mm < 0.0 {
+            for grey in self.greys_near(white(below), light, z_mm, greys) {
+                let grey_mm = error_mm(grey).abs();
+                if grey_mm < nearest.1 {
+                    nearest = (grey, grey_mm);
+                }
             }
         }
         nearest.0
@@ -191,12 +260,12 @@ impl Cure {
             })
     }
 
-    /// The light below a range that is lit from above by `light`.
-    pub fn light_below(&self, range: LitRange, light: Option<Light>) -> Light {
-        Light {
+    /// The light that a range, lit from above by `light`, leaves for one that ends at this layer. `None` if nothing is left there.
+    pub fn light_below(&self, range: LitRange, light: Option<Light>, end: usize) -> Option<Light> {
+        (!self.is_far(end, range.first)).then(|| Light {
             layer: range.first,
             dose: self.dose(range, light),
-        }
+        })
     }
 
     /// Thickness of a layer.
@@ -209,29 +278,29 @@ impl Cure {
         self.boundaries_mm[layer]
     }
 
-    /// The doses by the same exposures at the ends of the intervals in which a resin's values are known.
+    /// The doses by the same exposures where a resin differs from its values: penetration by 20 %, and with each the least and the largest
+    /// doses below layers, of an overcure that differs by 0.02 mm, and of half or all of earlier doses. Others cure to bottoms between those.
     pub fn within(plan: &Plan, resin: &Resin) -> Vec<Self> {
         let Some(nominal) = &resin.print_through else {
             return Vec::new();
         };
         let exposures_s = resin.exposures_s(&plan.thickness_mm());
-        let mut cures = Vec::new();
-        for part in [0.8, 1.2] {
-            for overcure_mm in [nominal.overcure_mm - 0.02, nominal.overcure_mm + 0.02] {
-                for retained in [0.5, 1.0] {
-                    let print_through = PrintThrough {
-                        overcure_mm,
-                        retained,
-                    };
-                    let resin = Resin {
-                        penetration_mm: part * resin.penetration_mm,
-                        ..resin.clone()
-                    };
-                    cures.push(Self::new(&print_through, &resin, plan.z_mm(), &exposures_s));
-                }
-            }
-        }
+        let ends = [(-0.02, 0.5), (0.02, 1.0)];
+        let cases = [0.8, 1.2].map(|part| ends.map(|(by_mm, retained)| (part, by_mm, retained)));
+        let cures = cases.as_flattened().iter();
         cures
+            .map(|&(part, by_mm, retained)| {
+                let print_through = PrintThrough {
+                    overcure_mm: nominal.overcure_mm + by_mm,
+                    retained,
+                };
+                let resin = Resin {
+                    penetration_mm: part * resin.penetration_mm,
+                    ..resin.clone()
+                };
+                Self::new(&print_through, &resin, plan.z_mm(), &exposures_s)
+            })
+            .collect()
     }
 
     /// The plane from which on layers cure down to a flat that faces down, if they are as thick as here.
@@ -241,15 +310,11 @@ impl Cure {
         if first >= layers {
             return flat_mm;
         }
-        flat_mm
-            + self.depth_mm(
-                self.raised(LitRange::white(first, layers), None, flat_mm, 1)
-                    .first,
-            )
+        flat_mm + self.depth_mm(self.raised(first..layers, None, flat_mm, 1).first)
     }
 
     /// Depth to which a layer cures below its bottom, where all layers above it are lit.
     pub fn depth_mm(&self, layer: usize) -> f64 {
-        self.boundaries_mm[layer] - self.bottoms_mm[layer]
+        self.boundaries_mm[layer] - self.bottom_mm(LitRange::white(layer, self.own.len()), None)
     }
 }

@@ -545,6 +545,7 @@ pub(super) fn report_of(
         plan,
         print_through,
         findings,
+        ..
     } = planned;
     let sampled = &planned.first().of;
     let Origin {

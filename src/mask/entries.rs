@@ -21,13 +21,25 @@ pub enum Raise {
 
 /// Lit ranges of rays in the masks.
 pub(super) trait LitRanges {
-    /// Calls `emit(on, off)` for the first lit sublayer and the first dark one above of each range of a ray.
-    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, emit: impl FnMut(u32, u32));
+    /// Calls `emit(on, off)` for the first lit sublayer and the first dark one above of each range of a ray. `column` is overwritten.
+    fn of_ray(
+        &self,
+        hits: &[Hit],
+        classes: FacetClasses,
+        column: &mut Column,
+        emit: impl FnMut(u32, u32),
+    );
 }
 
 impl LitRanges for SublayerOf {
     #[inline]
-    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32)) {
+    fn of_ray(
+        &self,
+        hits: &[Hit],
+        classes: FacetClasses,
+        _: &mut Column,
+        mut emit: impl FnMut(u32, u32),
+    ) {
         printed_ranges(hits, classes, |z_in, z_out| {
             emit(self.first_above(z_in), self.first_above(z_out));
         });
@@ -35,14 +47,23 @@ impl LitRanges for SublayerOf {
 }
 
 impl LitRanges for Entries<'_> {
-    fn of_ray(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32)) {
-        self.each(hits, classes, |on, off, _| emit(on, off));
+    fn of_ray(
+        &self,
+        hits: &[Hit],
+        classes: FacetClasses,
+        column: &mut Column,
+        mut emit: impl FnMut(u32, u32),
+    ) {
+        self.each(hits, classes, column, |on, off, _| emit(on, off));
     }
 }
 
+/// Memory for the ranges of one ray, from the plate upward; it serves one ray after another.
+pub(super) type Column = Vec<Lit>;
+
 /// Range of a ray before compensation.
 #[derive(Clone, Copy)]
-struct Lit {
+pub(super) struct Lit {
     on: u32,
     off: u32,
     z_in: f32,
@@ -62,7 +83,13 @@ impl Entries<'_> {
     /// compensation. A range of which compensation leaves nothing has `on >= off`.
     ///
     /// Entries in the first layer stay, as nothing cures below the plate, and so do those of a range that is lit up to them.
-    pub fn each(&self, hits: &[Hit], classes: FacetClasses, mut emit: impl FnMut(u32, u32, u32)) {
+    pub fn each(
+        &self,
+        hits: &[Hit],
+        classes: FacetClasses,
+        column: &mut Column,
+        mut emit: impl FnMut(u32, u32, u32),
+    ) {
         let sublayer_of = self.sublayer_of;
         match self.raise {
             Raise::By(distance_mm) => {
@@ -80,7 +107,7 @@ impl Entries<'_> {
                     emit(on, off, unraised);
                 });
             }
-            Raise::Cured { cure, .. } => self.each_cured(cure, hits, classes, &mut |it| {
+            Raise::Cured { cure, .. } => self.each_cured(cure, hits, classes, column, |it| {
                 emit(it.on, it.off, it.unraised);
             }),
         }
@@ -92,14 +119,15 @@ impl Entries<'_> {
         cure: &Cure,
         hits: &[Hit],
         classes: FacetClasses,
-        emit: &mut dyn FnMut(&CuredRange),
+        ranges: &mut Column,
+        mut emit: impl FnMut(&CuredRange),
     ) {
         let parts = self.parts;
         let greys = match self.raise {
             Raise::Cured { greys, .. } => *greys,
             Raise::By(_) => 1,
         };
-        let mut ranges: Vec<Lit> = Vec::new();
+        ranges.clear();
         printed_entries(hits, classes, |z_in, z_out, is_support| {
             let [on, off] = [z_in, z_out].map(|z_mm| self.sublayer_of.first_above(z_mm));
             match ranges.last_mut() {
@@ -113,43 +141,37 @@ impl Entries<'_> {
                 _ => {}
             }
         });
+        // Most rays leave the plate and meet nothing above.
+        if let [it] = ranges[..]
+            && it.on < parts
+        {
+            return emit(&CuredRange::new(it, None, parts));
+        }
         let mut light: Option<Light> = None;
         for place in (0..ranges.len()).rev() {
             let it = ranges[place];
-            let mut range = CuredRange {
-                unraised: it.on,
-                on: it.on,
-                off: it.off,
-                unraised_layer: (it.on / parts) as usize,
-                // A layer of several heights is lit if most of them are.
-                lit: LitRange::white(
-                    (it.on / parts) as usize,
-                    ((it.off + parts / 2) / parts) as usize,
-                ),
-                z_mm: f64::from(it.z_in),
-                is_raised: false,
-                below: place
-                    .checked_sub(1)
-                    .map(|place| (ranges[place].off / parts) as usize),
-            };
+            let below = place.checked_sub(1).map(|place| ranges[place]);
+            let mut range = CuredRange::new(it, below, parts);
             let lit = range.lit;
             if lit.first < lit.end {
                 range.is_raised = lit.first > 0 && !it.is_support;
                 if range.is_raised {
-                    range.lit = cure.raised(lit, light, range.z_mm, greys);
-                    let black = (1.0 - range.lit.brightness) * f64::from(parts);
-                    let on = range.lit.first as u32 * parts + black.round() as u32;
+                    range.lit = cure.raised(lit.first..lit.end, light, range.z_mm, greys);
+                    let mut on = range.lit.first as u32 * parts;
+                    if range.lit.brightness < 1.0 {
+                        let black = (1.0 - range.lit.brightness) * f64::from(parts);
+                        on += black.round() as u32;
+                    }
                     // A top that ends within a layer leaves less of it for greys.
                     range.on = on.min(it.off - 1);
-                    if let Some(below) = place.checked_sub(1) {
+                    if let Some(below) = below {
                         // A whole layer may begin within a gap that is thinner than one.
-                        range.on = range.on.max(ranges[below].off);
+                        range.on = range.on.max(below.off);
                     }
                 }
-                // Most rays have a single range, below which no light matters.
-                if place > 0 {
-                    light = Some(cure.light_below(range.lit, light));
-                }
+                light = range
+                    .below
+                    .and_then(|end| cure.light_below(range.lit, light, end));
             }
             emit(&range);
         }
@@ -173,4 +195,23 @@ pub(super) struct CuredRange {
     pub is_raised: bool,
     /// The first dark layer above the range below.
     pub below: Option<usize>,
+}
+
+impl CuredRange {
+    /// A range without compensation, and the one below.
+    #[inline]
+    fn new(it: Lit, below: Option<Lit>, parts: u32) -> Self {
+        let layer = (it.on / parts) as usize;
+        Self {
+            unraised: it.on,
+            on: it.on,
+            off: it.off,
+            unraised_layer: layer,
+            // A layer of several heights is lit if most of them are.
+            lit: LitRange::white(layer, ((it.off + parts / 2) / parts) as usize),
+            z_mm: f64::from(it.z_in),
+            is_raised: false,
+            below: below.map(|below| (below.off / parts) as usize),
+        }
+    }
 }

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::entries::Raise;
+use super::entries::{Column, Raise};
 use super::samples::SublayerOf;
 use super::shrink::{Part, Rows, Shrink};
 use super::step::{Disc, Step, Stretch, without};
@@ -99,10 +99,16 @@ fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
     let width = ldi.grid.width as usize;
     let found = parallel::map(bands.to_vec(), |rows| {
         let mut found = false;
+        let mut ranges = Column::new();
         for ray in rows.start * width..rows.end * width {
-            entries.each(ldi.ray(ray), ldi.classes, |on, off, unraised| {
-                found |= unraised < off && off <= on;
-            });
+            entries.each(
+                ldi.ray(ray),
+                ldi.classes,
+                &mut ranges,
+                |on, off, unraised| {
+                    found |= unraised < off && off <= on;
+                },
+            );
         }
         found
     });

@@ -34,7 +34,7 @@ use crate::grid::Grid;
 use crate::ldi::{Ldi, Solid};
 use crate::parallel;
 use crate::plan::Plan;
-use entries::{Entries, LitRanges};
+use entries::{Column, Entries, LitRanges};
 use samples::SublayerOf;
 use shrink::Shrink;
 use window::Place;
@@ -91,11 +91,12 @@ impl Masks {
         let width = ldi.grid.width as usize;
         let place = Place::new(&ldi.grid, grid, samples, side);
         Self::of_bands(plan, grid, samples, &place, |rows, changes| {
+            let mut column_ranges = Column::new();
             for row in rows {
                 for (column, &in_row) in place.columns.iter().enumerate() {
                     let pixel = place.rows[row] + in_row;
                     let hits = ldi.ray(row * width + column);
-                    ranges.of_ray(hits, ldi.classes, |on, off| {
+                    ranges.of_ray(hits, ldi.classes, &mut column_ranges, |on, off| {
                         if on >= off {
                             return;
                         }

@@ -5,7 +5,7 @@ use std::ops::Range;
 use serde::Serialize;
 
 use super::Samples;
-use super::entries::{CuredRange, Entries, Raise};
+use super::entries::{Column, CuredRange, Entries, Raise};
 use super::samples::SublayerOf;
 use crate::cure::{Cure, Light, LitRange};
 use crate::ldi::Ldi;
@@ -61,7 +61,7 @@ const LEAST_OFF_MM2: f64 = 0.5;
 const BAND_ROWS: usize = 64;
 
 /// The most cures that the same masks are examined under.
-const MOST_CURES: usize = 8;
+const MOST_CURES: usize = 4;
 
 /// Sums over rays.
 #[derive(Clone, Default)]
@@ -147,9 +147,10 @@ pub(crate) fn print_through(
         bands,
         |rows: Range<usize>| {
             let mut tally = empty.clone();
+            let mut ranges = Column::new();
             for ray in rows.start * width..rows.end * width {
                 let mut lights = Lights::default();
-                entries.each_cured(cure, ldi.ray(ray), ldi.classes, &mut |range| {
+                entries.each_cured(cure, ldi.ray(ray), ldi.classes, &mut ranges, |range| {
                     lights.pass(ray, range, cure, others, tolerance_mm, &mut tally);
                 });
             }
@@ -332,13 +333,13 @@ impl Lights {
                 tally.closed_at = tally.closed_at.or(Some((ray, bottom_mm)));
             }
         }
-        if range.below.is_none() {
+        let Some(end) = range.below else {
             return;
-        }
-        self.before = Some(cure.light_below(unraised, self.before));
-        self.after = Some(cure.light_below(lit, self.after));
+        };
+        self.before = cure.light_below(unraised, self.before, end);
+        self.after = cure.light_below(lit, self.after, end);
         for (other, light) in others.iter().zip(&mut self.others) {
-            *light = Some(other.light_below(lit, *light));
+            *light = other.light_below(lit, *light, end);
         }
     }
 }

@@ -6,7 +6,7 @@
 
 use std::ops::Range;
 
-use super::entries::{Entries, Raise};
+use super::entries::{Column, Entries, Raise};
 use super::samples::SublayerOf;
 use super::step::{Step, Stretch};
 use super::{Change, each_change};
@@ -138,6 +138,7 @@ impl Rows {
         let [left, above] = shrink.offset.map(|side| side as i32);
         let width = ldi.grid.width as usize;
         let mut flips = Vec::new();
+        let mut ranges = Column::new();
         for row in rows.clone() {
             let Some(ray_row) = (row - above)
                 .try_into()
@@ -148,7 +149,7 @@ impl Rows {
             };
             for column in 0..width {
                 let hits = ldi.ray(ray_row * width + column);
-                entries.each(hits, ldi.classes, |mut on, off, unraised| {
+                entries.each(hits, ldi.classes, &mut ranges, |mut on, off, unraised| {
                     if part == Part::Whole && off <= on {
                         on = unraised;
                     }

@@ -65,6 +65,8 @@ pub struct Planned {
     pub layering: Layering,
     pub plan: Plan,
     pub findings: Findings,
+    /// Compensations in the masks, if there are any.
+    shrinking: Option<Shrinking>,
     /// Errors of surfaces that face down, if the resin states its print-through.
     pub print_through: Option<PrintThroughReport>,
 }
@@ -95,6 +97,7 @@ impl Planned {
         let mut planned = Self {
             findings: planning.findings(&plan)?,
             models,
+            shrinking: shrinking(&plan, layering),
             layering: layering.clone(),
             plan,
             print_through: None,
@@ -117,7 +120,7 @@ impl Planned {
         &self,
         progress: &mut Progress<'_>,
     ) -> Result<Option<PrintThroughReport>, Cancelled> {
-        let Some(Shrinking { raise, .. }) = self.shrinking() else {
+        let Some(Shrinking { raise, .. }) = &self.shrinking else {
             return Ok(None);
         };
         let others = Cure::within(&self.plan, &self.layering.resin);
@@ -134,7 +137,7 @@ impl Planned {
                 ldi,
                 &self.plan,
                 samples,
-                &raise,
+                raise,
                 &others,
                 tolerance_mm,
                 &mut within,
@@ -154,7 +157,7 @@ impl Planned {
     /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,
     /// and nothing is known.
     fn erased(&self, progress: &mut Progress<'_>) -> Result<Option<Warning>, Cancelled> {
-        let Some(shrinking) = self.shrinking() else {
+        let Some(shrinking) = &self.shrinking else {
             return Ok(None);
         };
         let mut of_layers_mm2 = vec![0.0; self.plan.layers()];
@@ -165,7 +168,7 @@ impl Planned {
             };
             let samples = model.sampled().sampling.samples;
             let mut within = |fraction| progress(share * (place as f64 + fraction));
-            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, &shrinking, &mut within)?;
+            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, shrinking, &mut within)?;
             for (sum_mm2, area_mm2) in of_layers_mm2.iter_mut().zip(areas_mm2) {
                 *sum_mm2 += area_mm2 * model.copies as f64;
             }
@@ -213,9 +216,9 @@ impl Planned {
         let sampled = self.models[model].sampled();
         let Sampled { grid, sampling, .. } = sampled;
         let (ldi, samples) = (sampled.ldi()?, sampling.samples);
-        Ok(match self.shrinking() {
+        Ok(match &self.shrinking {
             None => Masks::new(ldi, &self.plan, grid, samples, side),
-            Some(shrinking) => Masks::shrunk(ldi, &self.plan, grid, samples, side, &shrinking),
+            Some(shrinking) => Masks::shrunk(ldi, &self.plan, grid, samples, side, shrinking),
         })
     }
 
@@ -232,7 +235,7 @@ impl Planned {
             ..
         } = sampled;
         Ok(match sampled.bound() {
-            Some(Bound { slab_bytes, .. }) if self.shrinking().is_none() => {
+            Some(Bound { slab_bytes, .. }) if self.shrinking.is_none() => {
                 let (mesh, samples) = (sampled.mesh(), sampling.samples);
                 let plan = &self.plan;
                 Box::new(SlabMasks::new(
@@ -242,21 +245,21 @@ impl Planned {
             _ => Box::new(self.masks(model, side)?),
         })
     }
+}
 
-    /// Compensations in the masks, if there are any.
-    fn shrinking(&self) -> Option<Shrinking> {
-        let Layering { growth, resin, .. } = &self.layering;
-        let cure = Cure::of_plan(&self.plan, resin);
-        if growth.is_none() && cure.is_none() {
-            return None;
-        }
-        Some(Shrinking {
-            xy_mm: growth.of_layers_mm(self.plan.layers(), resin.bottom_layers),
-            raise: cure.map_or(Raise::By(growth.z_mm), |cure| Raise::Cured {
-                cure,
-                greys: self.layering.greys,
-            }),
-            least_mm: self.layering.min_feature_mm,
-        })
+/// Compensations in the masks of a plan, if there are any.
+fn shrinking(plan: &Plan, layering: &Layering) -> Option<Shrinking> {
+    let Layering { growth, resin, .. } = layering;
+    let cure = Cure::of_plan(plan, resin);
+    if growth.is_none() && cure.is_none() {
+        return None;
     }
+    Some(Shrinking {
+        xy_mm: growth.of_layers_mm(plan.layers(), resin.bottom_layers),
+        raise: cure.map_or(Raise::By(growth.z_mm), |cure| Raise::Cured {
+            cure,
+            greys: layering.greys,
+        }),
+        least_mm: layering.min_feature_mm,
+    })
 }
