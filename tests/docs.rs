@@ -142,6 +142,7 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
     let limits = Limits::default();
     let severity = |severity| match severity {
         Severity::Ignore => "ignore",
+        Severity::Note => "note",
         Severity::Review => "review",
         Severity::Reject => "reject",
     };
@@ -171,6 +172,10 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
     }
     let slope = limits.self_supporting_slope.to_string();
     assert_says(row(PRINTABILITY, "`overhang_mm`"), &slope);
+    let volumes_mm3 = format!("| {}, {} |", limits.note_mm3, limits.reject_mm3);
+    assert_says(row(PRINTABILITY, "`note_mm3`"), &volumes_mm3);
+    let volume_ml = format!("| {} |", limits.note_ml);
+    assert_says(row(PRINTABILITY, "`note_ml`"), &volume_ml);
     for code in Code::ALL {
         assert_says(
             PRINTABILITY,

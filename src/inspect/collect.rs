@@ -1,5 +1,7 @@
 //! Findings as they are collected: in millimetres, with their severity, and no more than a list can show.
 
+use std::cmp::Reverse;
+
 use glam::DVec2;
 
 use super::components::Patch;
@@ -153,7 +155,7 @@ impl<'a> Collector<'a> {
         if !self.limits.looks_for(finding.code) {
             return;
         }
-        let severity = self.limits.severity.of(finding.code);
+        let severity = self.limits.severity_of(finding.code, finding.volume_mm3);
         let kind = &mut self.kinds[finding.code as usize];
         kind.found += 1;
         kind.largest.push(Finding {
@@ -165,7 +167,7 @@ impl<'a> Collector<'a> {
         }
     }
 
-    /// The findings by kind, from the largest down, and how many of each kind there are.
+    /// The findings by kind, from the most severe and the largest down, and how many of each kind there are.
     pub fn finish(mut self) -> (Vec<Finding>, Vec<(Code, usize)>) {
         let mut findings = Vec::new();
         let mut counts = Vec::new();
@@ -183,6 +185,8 @@ impl<'a> Collector<'a> {
 impl Kind {
     fn shorten(&mut self) {
         sort_by_number(&mut self.largest, |finding| -finding.weight());
+        self.largest
+            .sort_by_key(|finding| Reverse(finding.severity));
         self.largest.truncate(LISTED);
     }
 }

@@ -12,6 +12,8 @@ use super::finding::Code;
 pub enum Severity {
     /// Ignored: the checks do not look for it.
     Ignore,
+    /// Reported, though it spoils no print.
+    Note,
     /// A person should check it before printing.
     Review,
     /// The print is rejected.
@@ -57,7 +59,13 @@ pub struct Limits {
     pub peel_jump_mm2: Option<f64>,
     /// The least area on the plate as a fraction of the largest layer's; no limit if absent.
     pub contact: Option<f64>,
-    /// The severity of each kind of finding.
+    /// Islands and loose bodies below this volume are notes, in mm³: flakes that the next layer catches.
+    pub note_mm3: f64,
+    /// Islands and loose bodies are rejected from this volume on, in mm³: pieces that drift in the vat, or hang from their arm alone.
+    pub reject_mm3: f64,
+    /// Traps, cups and hollows with small escapes below this volume are notes, in millilitres: a drop.
+    pub note_ml: f64,
+    /// The severity of each kind of finding, at most: those with a volume have a lower one where it is small.
     pub severity: Severities,
 }
 
@@ -81,12 +89,15 @@ impl Default for Limits {
             peel_mm2: None,
             peel_jump_mm2: None,
             contact: None,
+            note_mm3: 0.5,
+            reject_mm3: 10.0,
+            note_ml: 0.05,
             severity: Severities::default(),
         }
     }
 }
 
-/// The severity of each kind of finding, by its code.
+/// The largest severity of each kind of finding, by its code.
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -129,10 +140,10 @@ pub struct Severities {
 impl Default for Severities {
     fn default() -> Self {
         Self {
-            island: Severity::Review,
+            island: Severity::Reject,
             loose_body: Severity::Reject,
             separate_body: Severity::Ignore,
-            speck: Severity::Review,
+            speck: Severity::Note,
             overhang: Severity::Review,
             cup: Severity::Review,
             trap: Severity::Reject,
@@ -173,7 +184,7 @@ impl Severities {
         }
     };
 
-    /// The severity of a kind of finding.
+    /// The largest severity of a kind of finding.
     pub fn of(&self, code: Code) -> Severity {
         match code {
             Code::Island => self.island,
@@ -221,6 +232,19 @@ pub enum LimitsError {
 }
 
 impl Limits {
+    /// Severity of a finding of this kind and volume.
+    pub(super) fn severity_of(&self, code: Code, volume_mm3: f64) -> Severity {
+        let by_volume = match code {
+            Code::Island | Code::LooseBody if volume_mm3 < self.note_mm3 => Severity::Note,
+            Code::Island | Code::LooseBody if volume_mm3 < self.reject_mm3 => Severity::Review,
+            Code::Trap | Code::Cup | Code::SmallEscape if volume_mm3 < self.note_ml * 1e3 => {
+                Severity::Note
+            }
+            _ => Severity::Reject,
+        };
+        by_volume.min(self.severity.of(code))
+    }
+
     /// Returns true if findings of a kind matter at all.
     pub fn looks_for(&self, code: Code) -> bool {
         self.severity.of(code) != Severity::Ignore
@@ -248,6 +272,9 @@ impl Limits {
             ("peel_mm2", self.peel_mm2),
             ("peel_jump_mm2", self.peel_jump_mm2),
             ("contact", self.contact),
+            ("note_mm3", Some(self.note_mm3)),
+            ("reject_mm3", Some(self.reject_mm3)),
+            ("note_ml", Some(self.note_ml)),
         ];
         let slope = (
             "self_supporting_slope",

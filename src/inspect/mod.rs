@@ -73,7 +73,7 @@ pub struct Count {
 pub struct Printability {
     /// The largest severity of all findings.
     pub verdict: Verdict,
-    /// The findings, by kind, from the largest down: at most a hundred of each kind.
+    /// The findings, by kind, from the most severe and the largest down: at most a hundred of each kind.
     pub findings: Vec<Finding>,
     /// The kinds that were found.
     pub counts: Vec<Count>,
@@ -82,9 +82,6 @@ pub struct Printability {
     /// Areas to be peeled off the film, layer by layer.
     pub peel: Peel,
 }
-
-/// Least volume of a piece that floats in the vat, in mm³. Smaller ones are flakes that the next layer catches.
-const FLOATING_MM3: f64 = 0.5;
 
 /// Pieces that begin with nothing below them and grow by more than a flake before they join what stands on the plate.
 ///
@@ -102,7 +99,7 @@ pub fn floating(
         ..Limits::default()
     };
     let mut findings = inspect(masks, plan, &limits, &Held::default(), progress)?.findings;
-    findings.retain(|it| it.volume_mm3 >= FLOATING_MM3);
+    findings.retain(|it| it.severity > Severity::Note);
     Ok(findings)
 }
 
@@ -141,7 +138,7 @@ pub fn inspect(
     let worst = findings.iter().map(|finding| finding.severity).max();
     Ok(Printability {
         verdict: match worst {
-            None | Some(Severity::Ignore) => Verdict::Ok,
+            None | Some(Severity::Ignore | Severity::Note) => Verdict::Ok,
             Some(Severity::Review) => Verdict::Review,
             Some(Severity::Reject) => Verdict::Reject,
         },

@@ -10,7 +10,7 @@ use crate::common::{binary_stl, solids};
 /// A hollow ball, whose inside no hole drains.
 fn hollow(folder: &TempDir) -> String {
     let mut triangles = solids::sphere(3.0, 4);
-    triangles.extend(solids::inverted(&solids::sphere(2.0, 4)));
+    triangles.extend(solids::inverted(&solids::sphere(2.5, 4)));
     model(folder, "hollow.stl", &binary_stl(&triangles))
 }
 
@@ -49,7 +49,7 @@ fn a_shop_sets_what_it_accepts() {
         (&"trap".into(), &"reject".into())
     );
     let volume_mm3 = trap["volume_mm3"].as_f64().unwrap();
-    let ball_mm3 = std::f64::consts::PI * 32.0 / 3.0;
+    let ball_mm3 = std::f64::consts::PI * 4.0 / 3.0 * 2.5f64.powi(3);
     assert!((volume_mm3 / ball_mm3 - 1.0).abs() < 0.02, "{volume_mm3}");
     assert_eq!(checked["limits"]["wall_mm"], 0.4);
     let checked = check(&["--limits", &lenient]);

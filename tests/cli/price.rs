@@ -151,7 +151,7 @@ fn prices_that_cannot_be_used_are_named() {
 fn a_verified_plan_has_the_verdict_and_the_price_that_the_shop_computes() {
     let folder = TempDir::new().unwrap();
     let mut hollow = solids::sphere(3.0, 4);
-    hollow.extend(solids::inverted(&solids::sphere(2.0, 4)));
+    hollow.extend(solids::inverted(&solids::sphere(2.5, 4)));
     let hollow = model(&folder, "hollow.stl", &binary_stl(&hollow));
     let prices = model(&folder, "prices.json", PRICES.as_bytes());
     let limits = model(&folder, "limits.json", b"{}");
@@ -217,7 +217,7 @@ fn verified_plates_have_a_verdict_a_model_and_a_price_in_all() {
     let path = |name: &str| folder.path().join(name).display().to_string();
     sphere(&folder);
     let mut hollow = solids::sphere(3.0, 4);
-    hollow.extend(solids::inverted(&solids::sphere(2.0, 4)));
+    hollow.extend(solids::inverted(&solids::sphere(2.5, 4)));
     model(&folder, "hollow.stl", &binary_stl(&hollow));
     let prices = model(&folder, "prices.json", PRICES.as_bytes());
     let limits = model(&folder, "limits.json", b"{}");

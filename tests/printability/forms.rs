@@ -275,7 +275,7 @@ fn an_edge_is_no_bond() {
     let above = joined([slab(0.0, 1.0), block([10.0, 0.0, 1.0], [12.0, 2.0, 3.0])]);
     let found = check(&above, &strict());
     assert_codes(&found, &[Code::LooseBody]);
-    assert_eq!((found.bodies, found.verdict), (2, Verdict::Reject));
+    assert_eq!((found.bodies, found.verdict), (2, Verdict::Review));
     assert_eq!(found.findings[0].layers, [20, 59]);
 }
 
@@ -455,4 +455,56 @@ fn severities_decide_the_verdict() {
         ..strict()
     };
     assert_eq!(check(&pot, &large).verdict, Verdict::Ok);
+}
+
+#[test]
+fn a_severity_follows_the_volume() {
+    let severity = |triangles: &Triangles, code, limits: &Limits| {
+        let found = check(triangles, limits);
+        let [finding] = of_code(&found, code)[..] else {
+            panic!("{:#?}", found.findings);
+        };
+        (finding.severity, found.verdict)
+    };
+    let loose = |side: f32| {
+        joined([
+            slab(0.0, 1.0),
+            block([0.0, 0.0, 2.0], [side, side, 2.0 + side]),
+        ])
+    };
+    // An arm that a roof joins to the rest.
+    let island = |side: f32| {
+        joined([
+            slab(0.0, 1.0),
+            walls(1.0, 7.0),
+            block([4.0, 4.0, 7.0 - side], [4.0 + side, 4.0 + side, 7.0]),
+            slab(7.0, 8.0),
+        ])
+    };
+    let cases = [
+        (0.5, Severity::Note, Verdict::Ok),
+        (1.5, Severity::Review, Verdict::Review),
+        (2.5, Severity::Reject, Verdict::Reject),
+    ];
+    for (side, expected, verdict) in cases {
+        let found = severity(&loose(side), Code::LooseBody, &strict());
+        assert_eq!(found, (expected, verdict), "{side}");
+        let found = severity(&island(side), Code::Island, &strict());
+        assert_eq!(found.0, expected, "{side}");
+    }
+    // A shop may judge a kind less severely.
+    let mut lenient = strict();
+    lenient.severity.loose_body = Severity::Review;
+    let found = severity(&loose(2.5), Code::LooseBody, &lenient);
+    assert_eq!(found, (Severity::Review, Verdict::Review));
+    // 27 and 64 mm³ of enclosed resin.
+    let bubble = |side: f32| {
+        let [low, high] = [1.0, 1.0 + side].map(|it| [it; 3]);
+        let mut around = block([0.0; 3], [side + 2.0; 3]);
+        around.extend(block(low, high).into_iter().map(|[a, b, c]| [a, c, b]));
+        around
+    };
+    for (side, expected) in [(3.0, Severity::Note), (4.0, Severity::Reject)] {
+        assert_eq!(severity(&bubble(side), Code::Trap, &strict()).0, expected);
+    }
 }

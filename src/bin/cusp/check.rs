@@ -141,6 +141,7 @@ fn describe(printability: &Printability, report: &Report, show: usize) -> String
         let severity = match severity {
             Some(Severity::Reject) => ", reject",
             Some(Severity::Review) => ", review",
+            Some(Severity::Note) => ", note",
             _ => "",
         };
         let _ = write!(

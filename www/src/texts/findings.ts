@@ -8,7 +8,7 @@ const FINDINGS = {
   /** Shown if there are no findings. */
   none: "Nothing was found that would fail.",
   verdicts: { ok: "Can be printed like this", review: "Worth a look before it is printed", reject: "Will not print like this" },
-  severities: { ignore: "for information", review: "worth a look", reject: "will fail" },
+  severities: { note: "for information", review: "worth a look", reject: "will fail" },
   kinds: {
     island: "Islands",
     "loose-body": "Loose bodies",
@@ -79,7 +79,7 @@ const FINDINGS = {
   wallsHint: "Colours the model by how thick it is straight under each place. Stripes mark what is thinner than {limit}.",
 } as const satisfies {
   verdicts: Record<Printability["verdict"], string>;
-  severities: Record<Severity, string>;
+  severities: Record<Exclude<Severity, "ignore">, string>;
   kinds: Record<Code, string>;
   sentences: Record<Code, string>;
   advice: Record<Code, string>;

@@ -32,10 +32,12 @@ const WORDS: Readonly<Record<Check["verdict"], string>> = {
 
 const FAILED = "This could not be checked here. Please change a choice, or load this page anew.";
 
-/** One sentence for each kind of finding, with refused kinds first. */
+/** One sentence for each kind of finding that is more than a note, with refused kinds first. */
 export function reasons({ counts, findings }: Pick<ModelPrintability, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
-  const severityOf = (code: Code): Severity => (findings.some((it) => it.code === code && it.severity === "reject") ? "reject" : "review");
-  const said = counts.map(({ code, found }) => ({
+  const has = (code: Code, severity: Severity): boolean => findings.some((it) => it.code === code && it.severity === severity);
+  const severityOf = (code: Code): Severity => (has(code, "reject") ? "reject" : "review");
+  const matter = counts.filter(({ code }) => has(code, "reject") || has(code, "review"));
+  const said = matter.map(({ code, found }) => ({
     code,
     severity: severityOf(code),
     text: found === 1 ? SENTENCES[code] : `${SENTENCES[code]} (${number(found)} places)`,

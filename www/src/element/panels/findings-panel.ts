@@ -20,10 +20,15 @@ const FEW = 3;
 /** A tick; an exclamation mark; a cross. */
 const SIGNS = {
   ok: "m4.5 10.5 4 4 7-8.5",
-  ignore: "M10 9v6m0-9.5v.01",
+  note: "M10 9v6m0-9.5v.01",
   review: "M10 5v6.5m0 3.2v.01",
   reject: "m5.5 5.5 9 9m0-9-9 9",
 } as const;
+
+/** Severities of findings; what is ignored is not looked for. */
+const SEVERITIES = ["note", "review", "reject"] as const satisfies readonly Severity[];
+
+type Shown = (typeof SEVERITIES)[number];
 
 const PROPERTIES = {
   checks: given<Checks | null>(null),
@@ -116,13 +121,15 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     if (found.findings.length === 0) return nothing;
     const name = model === null ? null : shown(this.names[model] ?? "");
     return html`${name === null ? nothing : html`<h4 class="model">${this.language.format.count(copies_mm.length)} × ${name}</h4>`}
-    ${found.counts.map((count) => this.#kind(count, found, `${count.code}-${place}`, words))}`;
+    ${found.counts
+      .map((count) => ({ count, severity: severityOf(count.code, found.findings) }))
+      .toSorted((a, b) => SEVERITIES.indexOf(b.severity) - SEVERITIES.indexOf(a.severity))
+      .map(({ count, severity }) => this.#kind(count, severity, found, `${count.code}-${place}`, words))}`;
   }
 
-  #kind({ code, found }: Count, { findings }: Checked["found"], id: string, words: FindingsTexts): TemplateResult {
+  #kind({ code, found }: Count, severity: Shown, { findings }: Checked["found"], id: string, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const listed = findings.filter((finding) => finding.code === code);
-    const { severity } = listed[0] ?? { severity: "review" as const };
     const isChosenLate = this.chosen !== null && listed.indexOf(this.chosen) >= FEW;
     const shown = this.whole.has(id) || isChosenLate ? listed : listed.slice(0, FEW);
     return html`<section aria-labelledby=${id}>
@@ -178,7 +185,11 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   };
 }
 
-function sign(of: keyof typeof SIGNS | Severity): TemplateResult {
+/** The largest severity of a kind of findings. */
+const severityOf = (kind: Count["code"], findings: readonly Finding[]): Shown =>
+  SEVERITIES.findLast((severity) => findings.some((it) => it.code === kind && it.severity === severity)) ?? "note";
+
+function sign(of: keyof typeof SIGNS): TemplateResult {
   return html`<svg class=${of} viewBox="0 0 20 20" aria-hidden="true"><path d=${SIGNS[of]} /></svg>`;
 }
 
