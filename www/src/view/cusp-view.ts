@@ -235,7 +235,6 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if (has("z_mm")) model.setPlan(this.z_mm);
     if (has("limits")) model.setLimits(this.limits);
-    if (has("palette")) model.setPalette(this.palette);
     if (has("look")) model.setLook(this.look);
     if (has("look") || has("positions")) this.#measuring.want(this.look === "walls" ? this.#derived : null);
     if (has("walls")) model.setWalls(this.walls);

@@ -6,7 +6,7 @@ import { wallLegend } from "./legend/wall-legend.js";
 
 type Properties = Pick<
   CuspView,
-  "texts" | "broken" | "lost" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "palette" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
+  "texts" | "broken" | "lost" | "tool" | "positions" | "thickness_mm" | "layer" | "limits" | "look" | "showsLegend" | "aligned" | "isBeside" | "building" | "measuring" | "greatest_mm" | "probing" | "walls" | "wall_mm"
 >;
 
 /** State of the scene; defaults until it exists. */
@@ -72,7 +72,7 @@ function working({ texts, building, measuring, probing }: Properties): TemplateR
 
 /** Colour scale of the current look, if it has one. */
 function scale(view: Properties): TemplateResult | typeof nothing {
-  const { texts, positions, thickness_mm, layer, limits, look, palette, isBeside, greatest_mm } = view;
+  const { texts, positions, thickness_mm, layer, limits, look, isBeside, greatest_mm } = view;
   // A neighbouring chart has its own scale.
   const showsLegend = view.showsLegend && !(isAligned(view) && isBeside === true);
   if (look === "weights") return positions === null ? nothing : heatLegend(texts);
@@ -80,5 +80,5 @@ function scale(view: Properties): TemplateResult | typeof nothing {
   if (look === "walls") return view.walls === null ? nothing : wallLegend(view.wall_mm, texts);
   if (look !== "thickness" || !showsLegend || thickness_mm.length === 0) return nothing;
   const marked_mm = (layer === null ? undefined : thickness_mm[layer]) ?? null;
-  return legend({ palette, limits, marked_mm, texts });
+  return legend({ limits, marked_mm, texts });
 }

@@ -7,7 +7,6 @@ import type { Copy } from "./scene/copies.js";
 import type { Heat } from "./paint/heat.js";
 import type { Mark } from "./scene/marker.js";
 import type { Look } from "./scene/model.js";
-import type { PaletteName } from "./legend/palette.js";
 import type { BuildVolume } from "./scene/plate.js";
 import { UPRIGHT, type Rotation } from "./scene/pose.js";
 import { ENGLISH } from "./texts.js";
@@ -48,7 +47,6 @@ export const PROPERTIES = {
   /** Index of the selected copy. */
   selected: given<number | null>(null),
   look: given<Look>("thickness"),
-  palette: given<PaletteName>("classic"),
   tool: given<Tool>("turn"),
   /**
    * Shows the front without perspective, so that a height is a row of pixels: see `cusp-frame`. No effect if there is a plot that is not

@@ -142,7 +142,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
         <div>
           <dt>${words.thickness}</dt>
           <dd>
-            <span class="swatch" ${styled({ background: cssColour(ofThickness("classic", thickness_mm, this.limits)) })}></span
+            <span class="swatch" ${styled({ background: cssColour(ofThickness(thickness_mm, this.limits)) })}></span
             >${thickness}
           </dd>
         </div>

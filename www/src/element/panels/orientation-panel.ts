@@ -6,7 +6,7 @@ import type { ModelCalls } from "../state/selected.js";
 import type { Candidate, Metric } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import { orientationTexts } from "../../texts/orientation.js";
-import { gradient, type PaletteName } from "../../view/legend/palette.js";
+import { gradient } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { define } from "../define.js";
 import { orientationStyles } from "../styles/orientation-styles.js";
@@ -42,7 +42,6 @@ const PROPERTIES = {
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** Camera rotation of the neighbouring view; null without a view. */
   camera: given<Rotation | null>(null),
-  palette: given<PaletteName>("classic"),
   language: given(languageOf()),
   /** The candidate under the pointer, or chosen on the sphere. */
   looked: own<Looked | null>(null),
@@ -186,7 +185,6 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
           .best=${best}
           .rotation=${this.rotation}
           .camera=${this.camera}
-          .palette=${this.palette}
           .language=${this.language}
           @cusp-look=${(event: CustomEvent<Looked | null>) => (this.looked = event.detail)}
           @cusp-orient=${(event: CustomEvent<Candidate>) => this.#orient(event.detail)}
@@ -213,7 +211,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         : html`<span class="quiet">${words.legend}</span>
             <div class="scale">
               <span>${format.tick(range[0])}</span>
-              <i ${styled({ background: gradient(this.palette, "to left") })}></i>
+              <i ${styled({ background: gradient("to left") })}></i>
               <span>${format.tick(range[1])}</span>
             </div>`}
       <div class="keys quiet">

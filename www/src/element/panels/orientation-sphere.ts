@@ -5,7 +5,7 @@ import type { Candidate } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { orientationTexts } from "../../texts/orientation.js";
 import { drawSphere, Nearest, placeOf, seenAt, type Place, type Side } from "../../view/gaussian.js";
-import { colourAt, type PaletteName, type Rgb } from "../../view/legend/palette.js";
+import { colourAt, type Rgb } from "../../view/legend/palette.js";
 import type { Rotation, Triple } from "../../view/scene/pose.js";
 import { back, combined, FIRST_LOOK, lookFrom, turn } from "../../view/scene/turn.js";
 import { stepped, type Way } from "../parts/sphere-steps.js";
@@ -42,14 +42,14 @@ export function energyRange(candidates: readonly (Candidate | null)[]): readonly
 }
 
 /** The colour of each candidate: warm for the highest energy, cold for the lowest, grey if excluded; null if unknown. */
-export function coloursOf(candidates: readonly (Candidate | null)[], palette: PaletteName): (Rgb | null)[] {
+export function coloursOf(candidates: readonly (Candidate | null)[]): (Rgb | null)[] {
   const [least, greatest] = energyRange(candidates) ?? [0, 0];
   const span = greatest - least;
   return candidates.map((candidate) => {
     if (candidate === null) return null;
     if (candidate.excluded !== null) return EXCLUDED;
     if (candidate.energy === null) return null;
-    return colourAt(palette, span > 0 ? (greatest - candidate.energy) / span : 1);
+    return colourAt(span > 0 ? (greatest - candidate.energy) / span : 1);
   });
 }
 
@@ -60,7 +60,6 @@ const PROPERTIES = {
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** Camera rotation of the neighbouring view; null without a view. */
   camera: given<Rotation | null>(null),
-  palette: given<PaletteName>("classic"),
   language: given(languageOf()),
   /** The candidate under the pointer. */
   hovered: own<Candidate | null>(null),
@@ -187,7 +186,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
   }
 
   override updated(changed: PropertyValues<this>): void {
-    if ((["found", "rotation", "camera", "palette"] as const).some((name) => changed.has(name))) this.#draw();
+    if ((["found", "rotation", "camera"] as const).some((name) => changed.has(name))) this.#draw();
     if (changed.has("hovered") || changed.has("chosen")) {
       const candidate = this.hovered ?? this.chosen;
       const detail: Looked | null = candidate === null ? null : { candidate, isChosen: candidate === this.chosen };
@@ -264,7 +263,7 @@ export class CuspSphere extends elementWith(PROPERTIES) {
 
   #draw(): void {
     const nearest = this.#directions();
-    const colours = coloursOf(this.found?.candidates ?? [], this.palette);
+    const colours = coloursOf(this.found?.candidates ?? []);
     const facing = this.#facing;
     for (const [i, canvas] of this.renderRoot.querySelectorAll("canvas").entries()) {
       const side_px = Math.round(canvas.clientWidth * Math.min(devicePixelRatio, DENSITY_LIMIT));

@@ -8,8 +8,6 @@ export interface ViewBar {
   readonly isPrinted: boolean;
   /** True if the colours show distances from the model. */
   readonly isMeasured: boolean;
-  /** True for colours that are safe for colour-blind viewers. */
-  readonly isSafe: boolean;
   readonly isAligned: boolean;
   /**
    * True if the chart is next to the view; null without a chart. If false, its switch is hidden but keeps its space: otherwise the bar's
@@ -26,7 +24,6 @@ export interface ViewBar {
   chosen(tool: Tool): void;
   printed(on: boolean): void;
   measured(on: boolean): void;
-  safe(on: boolean): void;
   aligned(on: boolean): void;
   upright(): void;
 }
@@ -45,7 +42,6 @@ const ICONS = {
   drains: "M3 9V4.5h14V9M3 9h4.5M12.5 9H17M10 10.5s-2.5 3-2.5 4.6a2.5 2.5 0 0 0 5 0c0-1.6-2.5-4.6-2.5-4.6z",
   printed: "M2.5 16.5h4v-4h4v-4h4v-4h3",
   measured: "M3 4v12M17 4v12M5.5 10h9M8 7.5 5.5 10 8 12.5M12 7.5l2.5 2.5-2.5 2.5",
-  safe: "M17 10a7 7 0 1 1-14 0 7 7 0 0 1 14 0zM10 3v14M10 6.5h6M10 10h7M10 13.5h6",
   aligned: "M4 16.5V9l2-5.5h2l2 5.5v7.5zM13 3.5v13M13 6h4.5M13 10h2.5M13 14h4",
   upright: "M3.5 17h13M10 13.5V4M6.5 7.5 10 4l3.5 3.5",
 } as const;
@@ -69,7 +65,7 @@ export function viewBar(bar: ViewBar): TemplateResult {
     />
     ${icon(tool)}<span class="name">${words.tools[tool]}</span>
   </label>`;
-  const toggle = (name: "printed" | "measured" | "safe" | "aligned", checked: boolean, isShown = true): TemplateResult => html`<label
+  const toggle = (name: "printed" | "measured" | "aligned", checked: boolean, isShown = true): TemplateResult => html`<label
     class="switch ${isShown ? "" : "unseen"}"
     title=${words[name]}
   >
@@ -96,7 +92,7 @@ export function viewBar(bar: ViewBar): TemplateResult {
       <fieldset class="group switches">
         <legend class="visually-hidden">${words.switches}</legend>
         ${bar.isBeside === null ? nothing : toggle("aligned", bar.isAligned, bar.isBeside)}
-        ${toggle("printed", bar.isPrinted)} ${toggle("measured", bar.isMeasured)} ${toggle("safe", bar.isSafe)}
+        ${toggle("printed", bar.isPrinted)} ${toggle("measured", bar.isMeasured)}
       </fieldset>
     </div>
     ${isPossible ? nothing : html`<p class="quiet impossible" id="impossible">${words.impossible}</p>`}`;

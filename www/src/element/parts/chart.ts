@@ -115,7 +115,7 @@ function bandPattern(u: uPlot, data: ChartData, theme: ChartTheme): CanvasPatter
   const pen = strip.getContext("2d");
   if (pen === null || min == null || max == null || max <= min) return "transparent";
   for (const band of bands(data, max, min, bbox.height)) {
-    pen.fillStyle = css(ofThickness("classic", band.thickness_mm, data.limits));
+    pen.fillStyle = css(ofThickness(band.thickness_mm, data.limits));
     pen.fillRect(0, bbox.top + band.row, 1, band.rows);
   }
   const perMm = bbox.height / (max - min);

@@ -29,7 +29,7 @@ export async function thumbnailOf(
   const rotation = quaternion((options.rotation ?? []).join()) ?? UPRIGHT;
   const own_mm = heightOf(positions, rotation);
   const picture = {
-    ...{ positions, rotation, limits, palette: "classic" as const, z_mm: report.z_mm },
+    ...{ positions, rotation, limits, z_mm: report.z_mm },
     scale: own_mm > 0 ? height_mm / own_mm : 1,
   };
   const side_px = Math.min(MOST_PX, Math.max(LEAST_PX, Math.round(size_px)));

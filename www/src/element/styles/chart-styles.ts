@@ -84,7 +84,7 @@ export const chartStyles = css`
     vertical-align: middle;
   }
   .scale {
-    background: ${unsafeCSS(gradient("classic"))};
+    background: ${unsafeCSS(gradient())};
     width: 3rem;
     min-width: 1rem;
     height: 0.625rem;

@@ -1,7 +1,6 @@
 /** The colour scales of layer thicknesses, of weights and of distances. */
 import { css, html, nothing, type TemplateResult } from "lit";
-import { HEAT_PALETTE } from "../paint/heat.js";
-import { gradient, placeOf, type PaletteName } from "./palette.js";
+import { gradient, placeOf } from "./palette.js";
 import type { ViewTexts } from "../texts.js";
 
 /** Maximum number of ticks between the ends; more labels would overlap. */
@@ -29,7 +28,6 @@ export function ticks([least, greatest]: readonly [number, number]): number[] {
 }
 
 export interface LegendData {
-  readonly palette: PaletteName;
   /** Ends of the scale, mm. */
   readonly limits: readonly [number, number];
   /** The thickness of the selected layer, mm. */
@@ -43,13 +41,13 @@ const WEIGHTS = [0, 0.5, 1];
 const across = (place: number): string => `${(100 * place).toFixed(2)}%`;
 
 /** Sets styles as properties, since a strict content security policy forbids style attributes. */
-export function legend({ palette, limits, marked_mm, texts }: LegendData): TemplateResult {
+export function legend({ limits, marked_mm, texts }: LegendData): TemplateResult {
   const [least, greatest] = limits;
   const marks = greatest > least ? [least, ...ticks(limits), greatest] : [least];
   return html`
     <div class="legend" part="legend">
       <span class="heading">${texts.legend}</span>
-      <div class="scale" .style=${`background: ${gradient(palette)}`}>
+      <div class="scale" .style=${`background: ${gradient()}`}>
         ${marked_mm === null
           ? nothing
           : html`<i class="mark" .style=${`left: ${across(placeOf(marked_mm, limits))}`}></i>`}
@@ -66,7 +64,7 @@ export function heatLegend(texts: ViewTexts): TemplateResult {
   return html`
     <div class="legend" part="legend">
       <span class="heading">${texts.heat}</span>
-      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE, "to left")}`}></div>
+      <div class="scale" .style=${`background: ${gradient("to left")}`}></div>
       <div class="ticks">
         ${WEIGHTS.map((weight) => html`<span .style=${`left: ${across(weight)}`}>${texts.weight(weight)}</span>`)}
       </div>
@@ -80,7 +78,7 @@ export function distanceLegend(greatest_mm: number, texts: ViewTexts): TemplateR
   return html`
     <div class="legend" part="legend">
       <span class="heading">${texts.distance}</span>
-      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE, "to left")}`}></div>
+      <div class="scale" .style=${`background: ${gradient("to left")}`}></div>
       <div class="ticks">
         ${marks.map((mm) => html`<span .style=${`left: ${across(mm / (greatest_mm || 1))}`}>${texts.tick(mm)}</span>`)}
       </div>

@@ -1,50 +1,28 @@
 /**
- * Layer colours by thickness. One table of 256 entries serves the shader, the legend and every chart, so that a layer has the same colour
- * everywhere. In both palettes, thin is warm and thick is cold.
+ * Layer colours by thickness, from sand (thinnest) to indigo (thickest). One table of 256 entries serves the shader, the legend and every
+ * chart, so that a layer has the same colour everywhere. Lightness falls steadily, so it is legible with every kind of colour blindness and
+ * in grey; red is left for problems.
  */
 
 /** Red, green and blue, 0 to 255, sRGB. */
 export type Rgb = readonly [number, number, number];
 
-/**
- * `classic`: red (thinnest) through yellow to blue (thickest), as in the paper.
- * `safe`: viridis reversed, yellow (thinnest) to violet (thickest), without its darkest end, invisible on a dark page.
- * Lightness falls steadily, so that it is legible with every kind of colour blindness and in grey.
- */
-export type PaletteName = "classic" | "safe";
-
 /** Number of entries in a table. */
 export const PALETTE_SIZE = 256;
 
-const STOPS: Readonly<Record<PaletteName, readonly Rgb[]>> = {
-  classic: [
-    [200, 42, 54],
-    [239, 108, 72],
-    [252, 186, 103],
-    [248, 231, 160],
-    [176, 214, 226],
-    [106, 161, 206],
-    [54, 98, 172],
-  ],
-  safe: [
-    [253, 231, 37],
-    [194, 223, 35],
-    [133, 213, 74],
-    [81, 197, 106],
-    [43, 176, 127],
-    [30, 155, 138],
-    [37, 133, 142],
-    [45, 112, 142],
-    [56, 89, 140],
-    [67, 62, 133],
-    [72, 33, 115],
-  ],
-};
+/** Sand, teal, blue, indigo; not so dark that it is lost on a dark page. */
+const STOPS: readonly Rgb[] = [
+  [252, 227, 150],
+  [203, 214, 150],
+  [136, 194, 160],
+  [80, 165, 168],
+  [54, 130, 165],
+  [52, 93, 148],
+  [56, 52, 122],
+];
 
 /** Number of stops of a CSS gradient: enough to look the same as the table. */
 const GRADIENT_STOPS = 18;
-
-const tables = new Map<PaletteName, Uint8Array>();
 
 function filled(stops: readonly Rgb[]): Uint8Array {
   const out = new Uint8Array(4 * PALETTE_SIZE);
@@ -62,14 +40,7 @@ function filled(stops: readonly Rgb[]): Uint8Array {
 }
 
 /** RGBA of each entry, thinnest first. Shared: do not write to it. */
-export function table(name: PaletteName): Uint8Array {
-  let found = tables.get(name);
-  if (found === undefined) {
-    found = filled(STOPS[name]);
-    tables.set(name, found);
-  }
-  return found;
-}
+export const TABLE: Uint8Array = filled(STOPS);
 
 /** Position of a thickness between the limits: 0 the thinnest, 1 the thickest; clamped. 0.5 if the limits are equal. */
 export function placeOf(thickness_mm: number, limits: readonly [number, number]): number {
@@ -79,21 +50,20 @@ export function placeOf(thickness_mm: number, limits: readonly [number, number])
 }
 
 /** Colour at `place`, 0 the thinnest and 1 the thickest; clamped. */
-export function colourAt(name: PaletteName, place: number): Rgb {
-  const colours = table(name);
+export function colourAt(place: number): Rgb {
   const at = 4 * Math.round(Math.min(1, Math.max(0, place)) * (PALETTE_SIZE - 1));
-  return [colours[at] ?? 0, colours[at + 1] ?? 0, colours[at + 2] ?? 0];
+  return [TABLE[at] ?? 0, TABLE[at + 1] ?? 0, TABLE[at + 2] ?? 0];
 }
 
 /** Colour of a layer of this thickness, given the limits of the scale in mm. */
-export function ofThickness(name: PaletteName, thickness_mm: number, limits: readonly [number, number]): Rgb {
-  return colourAt(name, placeOf(thickness_mm, limits));
+export function ofThickness(thickness_mm: number, limits: readonly [number, number]): Rgb {
+  return colourAt(placeOf(thickness_mm, limits));
 }
 
 export const css = ([r, g, b]: Rgb): string => `rgb(${r} ${g} ${b})`;
 
 /** The whole scale as a CSS gradient, thinnest first. */
-export function gradient(name: PaletteName, direction = "to right"): string {
-  const stops = Array.from({ length: GRADIENT_STOPS }, (_, i) => css(colourAt(name, i / (GRADIENT_STOPS - 1))));
+export function gradient(direction = "to right"): string {
+  const stops = Array.from({ length: GRADIENT_STOPS }, (_, i) => css(colourAt(i / (GRADIENT_STOPS - 1))));
   return `linear-gradient(${direction}, ${stops.join(", ")})`;
 }

@@ -1,6 +1,5 @@
 /** Colour scale of wall thickness, from 0 to the end beyond which all walls look the same. */
 import { css, html, type TemplateResult } from "lit";
-import { HEAT_PALETTE } from "../paint/heat.js";
 import { elementWith, given } from "../properties.js";
 import { ENGLISH, type ViewTexts } from "../texts.js";
 import { wallScale } from "../walls/scale.js";
@@ -17,7 +16,7 @@ export function wallLegend(wall_mm: number, texts: Texts): TemplateResult {
   return html`
     <div class="legend walls" part="legend">
       <span class="heading">${texts.walls}</span>
-      <div class="scale" .style=${`background: ${gradient(HEAT_PALETTE)}`}>
+      <div class="scale" .style=${`background: ${gradient()}`}>
         <i class="thin" .style=${`width: ${across(least_mm / full_mm)}`}></i>
       </div>
       <div class="ticks">

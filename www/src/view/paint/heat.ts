@@ -1,5 +1,4 @@
 /** Values of the heat map for each facet. */
-import type { PaletteName } from "../legend/palette.js";
 
 /** Value shown: the painted weight, the saliency, or the product of the two. */
 export type Heat = "paint" | "saliency" | "product";
@@ -21,9 +20,6 @@ export function heatOf({ heat, weights, saliency, least }: HeatSource, facet: nu
   if (heat === "saliency") return standing;
   return Math.max(least, paint * standing);
 }
-
-/** Yellow is the greatest weight, violet the least: lightness changes steadily, so the map is legible with any colour vision. */
-export const HEAT_PALETTE: PaletteName = "safe";
 
 /** Texels per row of the heat texture, four facets per texel. Every WebGL 2 supports this width. */
 export const HEAT_ROW = 2048;

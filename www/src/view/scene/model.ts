@@ -17,9 +17,9 @@ import {
   Vector2,
   Vector3,
 } from "three";
-import { HEAT_PALETTE, HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } from "../paint/heat.js";
+import { HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } from "../paint/heat.js";
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
-import { PALETTE_SIZE, table, type PaletteName, type Rgb } from "../legend/palette.js";
+import { PALETTE_SIZE, TABLE, type Rgb } from "../legend/palette.js";
 import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX, PICK_FRAGMENT, PICK_VERTEX } from "./shaders.js";
 import { isMeasured } from "../steps/distances.js";
@@ -42,8 +42,8 @@ function boundariesTexture(rows: number): DataTexture {
   return texture;
 }
 
-function paletteTexture(name: PaletteName): DataTexture {
-  const texture = new DataTexture(table(name), PALETTE_SIZE, 1, RGBAFormat, UnsignedByteType);
+function paletteTexture(): DataTexture {
+  const texture = new DataTexture(TABLE, PALETTE_SIZE, 1, RGBAFormat, UnsignedByteType);
   texture.minFilter = texture.magFilter = NearestFilter;
   texture.needsUpdate = true;
   return texture;
@@ -91,8 +91,7 @@ export class Model {
   #points: Float32Array = this.#positions;
   #middle = new Vector3();
   #boundaries = boundariesTexture(1);
-  #palette = paletteTexture("classic");
-  readonly #heatPalette = paletteTexture(HEAT_PALETTE);
+  readonly #palette = paletteTexture();
   #heat = heatTexture(1);
   /** True if the GPU has the heat of every facet, so that only changes need uploading. */
   #hasHeat = false;
@@ -124,7 +123,6 @@ export class Model {
         limits: { value: new Vector2(0, 0) },
         byThickness: { value: false },
         heat: { value: this.#heat },
-        heatPalette: { value: this.#heatPalette },
         greatest: { value: 1 },
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
@@ -241,12 +239,6 @@ export class Model {
     this.#show();
   }
 
-  setPalette(name: PaletteName): void {
-    this.#palette.dispose();
-    this.#palette = paletteTexture(name);
-    this.#set("palette", this.#palette);
-  }
-
   setLimits(limits: readonly [number, number]): void {
     this.#set("limits", new Vector2(...limits));
   }
@@ -324,7 +316,6 @@ export class Model {
     this.#material.dispose();
     this.#boundaries.dispose();
     this.#palette.dispose();
-    this.#heatPalette.dispose();
     this.#heat.dispose();
     this.wallColours.dispose();
   }

@@ -117,11 +117,10 @@ vec3 ofPlan(float width, float upwards) {
 }
 
 #if defined(BY_HEAT) || defined(BY_DISTANCE) || defined(BY_WALLS)
-uniform sampler2D heatPalette;
 
 /** The palette's first entry is the greatest heat, as it is the thinnest layer. */
 vec3 ofHeat(float heat) {
-  return linear(texelFetch(heatPalette, ivec2(int((1.0 - heat) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
+  return linear(texelFetch(palette, ivec2(int((1.0 - heat) * ${(PALETTE_SIZE - 1).toFixed(1)} + 0.5), 0), 0).rgb);
 }
 
 #endif

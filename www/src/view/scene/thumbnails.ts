@@ -2,7 +2,6 @@
 import { Scene, WebGLRenderer } from "three";
 import { lookFirst, perspective } from "./cameras.js";
 import { Model } from "./model.js";
-import type { PaletteName } from "../legend/palette.js";
 import { Plate } from "./plate.js";
 import { UPRIGHT, type Rotation } from "./pose.js";
 import { contextOf } from "./surface.js";
@@ -90,17 +89,15 @@ export interface Layered {
   readonly z_mm: readonly number[];
   /** Thicknesses at the ends of the colour scale, mm. */
   readonly limits: readonly [number, number];
-  readonly palette: PaletteName;
 }
 
 /** Square PNG of a model coloured by layer thickness, on a transparent background; null without WebGL. */
-export function thumbnail({ positions, rotation, scale, z_mm, limits, palette }: Layered, size_px: number): Promise<Blob | null> {
+export function thumbnail({ positions, rotation, scale, z_mm, limits }: Layered, size_px: number): Promise<Blob | null> {
   return withScene(({ model, plate, shoot }) => {
     plate.group.visible = false;
     model.setPositions(positions, rotation, scale);
     model.setPlan(z_mm);
     model.setLimits(limits);
-    model.setPalette(palette);
     model.setLook("thickness");
     const canvas = shoot(size_px, size_px);
     return new Promise<Blob | null>((resolve) => canvas.toBlob(resolve, "image/png"));
