@@ -178,7 +178,7 @@ test("at 1280 × 800 nothing scrolls from the drop to the download, nothing move
   await openPanel(page, "Mask");
   await page.waitForSelector("canvas[data-layer]");
   await inSight(page, ["cusp-view", ".download", "cusp-mask canvas"]);
-  await openPanel(page, "Turn");
+  await openPanel(page, "Orient");
   await inSight(page, ["cusp-view", ".download"]);
   expect((await download(page)).suggestedFilename()).toBe("other-cusp.zip");
   expect(await overflow(page)).toEqual([0, 0]);
@@ -203,7 +203,7 @@ test("on a phone the view comes first, the bar stays, and panels are sheets, whi
   await inSight(page, ["cusp-view", "cusp-layer-slider", ".bar [data-layers]", ".bar .download"]);
   const whole = (await page.locator("cusp-view").boundingBox())?.height ?? 0;
   expect(whole).toBeGreaterThan(844 / 2);
-  for (const name of ["Turn", "Check", "Hollow", "Support", "Slice", "Profile", "Quality", "Mask"]) {
+  for (const name of ["Orient", "Check", "Hollow", "Support", "Slice", "Profile", "Quality", "Mask"]) {
     await page.locator("nav").getByRole("button", { name }).tap();
     await page.locator(".sheet").getByRole("heading", { name, level: 2 }).waitFor();
     await inSight(page, ["cusp-view", ".bar [data-layers]", ".bar .download"]);
@@ -233,11 +233,11 @@ test("on a phone the view comes first, the bar stays, and panels are sheets, whi
     expect(await focused()).toContain(name);
   }
   // From step to step: the button of the last one.
-  await open("Turn");
-  await page.getByRole("button", { name: "Next: Check" }).press("Enter");
-  await page.locator(".sheet").getByRole("heading", { name: "Check", level: 2 }).waitFor();
+  await open("Orient");
+  await page.getByRole("button", { name: "Next: Hollow" }).press("Enter");
+  await page.locator(".sheet").getByRole("heading", { name: "Hollow", level: 2 }).waitFor();
   await page.keyboard.press("Escape");
-  await expect.poll(focused).toContain("Check");
+  await expect.poll(focused).toContain("Hollow");
   // Elements outside the sheet keep the focus.
   await open("Slice");
   const slider = page.getByRole("slider", { name: "Layer in the view" });
@@ -318,7 +318,7 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
   await checked("Check");
   await openPanel(page, "Support");
   await checked("Support");
-  await openPanel(page, "Turn");
+  await openPanel(page, "Orient");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose").first().waitFor();
   await page.getByRole("application", { name: "Sphere of directions" }).press("ArrowRight");

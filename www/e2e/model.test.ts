@@ -65,7 +65,8 @@ test("beside the chart, heights are where the chart has them", async () => {
   await drop(page, ball);
   await state(page, "done");
   const beside = page.getByRole("switch", { name: "Beside the profile" });
-  await expect.poll(() => beside.isChecked()).toBe(true);
+  await expect.poll(() => beside.isVisible()).toBe(true);
+  expect(await beside.isChecked()).toBe(false);
   /** Upper edge and plate of the model on the screen, and those of the chart's plot. */
   const edges = (): Promise<number[]> =>
     page.evaluate(async () => {
@@ -134,7 +135,7 @@ test("the best orientations have pictures, and a print file its surface", async 
   await drop(page, block);
   await state(page, "done");
   const { bytes } = await downloaded(page);
-  await openPanel(page, "Turn");
+  await openPanel(page, "Orient");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   const pictures = page.locator("cusp-orientation .pose canvas[data-drawn]");
   await expect.poll(() => pictures.count()).toBe(3);

@@ -31,7 +31,7 @@ test("a dropped model is planned, looked through by keyboard, and its masks add 
   expect(text).toContain("Watertight");
   expect(text).toMatch(/\d+% fewer than the best uniform layers within tolerance/);
   expect(text).toMatch(/Coarsest uniform, 0.15 mm 13[34] \d+ min 0.1[45]\d* mm over tolerance/);
-  expect(text).toMatch(/\d+ layers about (\d+ h )?\d+ min to print/);
+  expect(text).toMatch(/Time (\d+ h )?\d+ min \d+ layers/);
   const count = await layers(page);
   expect(count).toBeGreaterThan(134);
   expect(count).toBeLessThan(400);

@@ -17,7 +17,7 @@ interface Shot {
 }
 
 async function orientation(page: Page, path: string): Promise<void> {
-  await openPanel(page, "Turn");
+  await openPanel(page, "Orient");
   await page.getByRole("button", { name: "Find the best orientation" }).click();
   await page.locator("cusp-orientation .pose canvas[data-drawn]").nth(2).waitFor();
   await page.locator("cusp-sphere .disc").first().hover({ position: { x: 60, y: 120 } });

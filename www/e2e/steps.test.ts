@@ -70,19 +70,19 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   const solid = await litAt(page);
   expect(solid(SIDE_MM + GAP_MM / 2)).toBe(0);
 
-  await step(page, "Turn").click();
-  expect(await said(page, "Turn")).toBe("As in the file");
+  await step(page, "Orient").click();
+  expect(await said(page, "Orient")).toBe("As in the file");
   await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => void (element.query += "&rotation=0.1,0,0,1"));
   await settled(page);
-  await expect.poll(() => said(page, "Turn")).toBe("Turned");
+  await expect.poll(() => said(page, "Orient")).toBe("Turned");
 
-  await next(page, "Check");
-  await at(page, "Check");
+  await step(page, "Check").click();
   await page.waitForSelector("cusp-findings [data-verdict]");
   const findings = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check?.models[0]?.findings.map(({ code }) => code) ?? []);
   expect(findings.some((code) => code === "island" || code === "loose-body")).toBe(true);
   await expect.poll(() => said(page, "Check")).toMatch(/^(Worth a look|Will fail)$/);
 
+  await step(page, "Orient").click();
   await next(page, "Hollow");
   await at(page, "Hollow");
   expect(await said(page, "Hollow")).toBe("Solid");
@@ -102,6 +102,8 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   expect(await said(page, "Support")).toBe(`Medium, ${supported?.points.length} points`);
   expect(hollowed?.void_ml).toBeGreaterThan(0.5);
 
+  await next(page, "Check");
+  await at(page, "Check");
   await next(page, "Slice");
   await at(page, "Slice");
   expect(await page.getByRole("button", { name: /^Next/ }).count()).toBe(0);
@@ -115,15 +117,17 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   await panel.evaluate((it) => it.scrollTo(0, 1000));
   expect(await panel.evaluate((it) => it.scrollTop)).toBeGreaterThan(0);
   await back(page);
-  await at(page, "Support");
+  await at(page, "Check");
   expect(await panel.evaluate((it) => it.scrollTop)).toBe(0);
+  await back(page);
+  await at(page, "Support");
   await back(page);
   await at(page, "Hollow");
   // Not even unreadable input.
   await page.getByLabel("Hollow, with walls of").fill("thick");
   await expect.poll(() => said(page, "Hollow")).toBe("To be corrected");
   await back(page);
-  await at(page, "Check");
+  await at(page, "Orient");
   await next(page, "Hollow");
   expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("thick");
   await page.getByRole("button", { name: "Undo" }).click();
@@ -160,17 +164,19 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
   await expect.poll(() => slider.getAttribute("aria-valuetext")).toMatch(/^Layer 11 of/);
   await press(page.getByRole("tab", { name: "Quality" }), "End");
   await page.waitForSelector("canvas[data-layer]");
-  await press(step(page, "Turn"), "Enter", "Shift+Tab");
-  await expect.poll(() => title(page).innerText()).toBe("Turn");
-  for (const name of ["Check", "Hollow", "Support"]) {
-    await press(page.getByRole("button", { name: `Next: ${name}` }), "Enter", name === "Check" ? "Shift+Tab" : "Tab");
+  await press(step(page, "Orient"), "Enter", "Shift+Tab");
+  await expect.poll(() => title(page).innerText()).toBe("Orient");
+  for (const name of ["Hollow", "Support"]) {
+    await press(page.getByRole("button", { name: `Next: ${name}` }), "Enter", name === "Hollow" ? "Shift+Tab" : "Tab");
     await at(page, name);
   }
   await press(page.getByLabel("Supports"), "ArrowDown");
   await settled(page);
   expect((await own(page)).supported?.points.length).toBeGreaterThan(0);
-  await press(page.getByRole("button", { name: "Next: Slice" }));
-  await at(page, "Slice");
+  for (const name of ["Check", "Slice"]) {
+    await press(page.getByRole("button", { name: `Next: ${name}` }));
+    await at(page, name);
+  }
   expect((await own(page)).hollowed).toBeUndefined();
   const [file] = await Promise.all([page.waitForEvent("download"), press(page.getByRole("button", { name: "Download print file" }))]);
   expect(file.suggestedFilename()).toBe("goblet-cusp.zip");
@@ -208,8 +214,8 @@ test("by touch on a phone, from a first visit to the file: cards and tour stay i
   await expect.poll(() => card.count()).toBe(0);
   expect(await page.locator(".sheet").count()).toBe(0);
   expect(await row(page).locator("[aria-current]").count()).toBe(0);
-  await step(page, "Turn").tap();
-  for (const name of ["Check", "Hollow", "Support", "Slice"]) {
+  await step(page, "Orient").tap();
+  for (const name of ["Hollow", "Support", "Check", "Slice"]) {
     await page.getByRole("button", { name: `Next: ${name}` }).tap();
     await at(page, name);
   }
@@ -220,4 +226,31 @@ test("by touch on a phone, from a first visit to the file: cards and tour stay i
   await expect.poll(() => page.locator(".sheet").count()).toBe(0);
   const [file] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Download print file" }).tap()]);
   expect(file.suggestedFilename()).toBe("goblet-cusp.zip");
+});
+
+test("one button turns, supports and checks a model, and one step back undoes it", async () => {
+  const page = await opened(DESKTOP);
+  const query = (): Promise<string> => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.query);
+  const before = await query();
+  await step(page, "Check").click();
+  await expect.poll(() => said(page, "Check")).toBe("Will fail");
+  await page.getByRole("button", { name: "Prepare automatically" }).click();
+  await expect.poll(() => title(page).innerText()).toBe("Orient");
+  await expect.poll(() => said(page, "Support")).toMatch(/^Medium, \d+ points$/);
+  expect(await title(page).innerText()).toBe("Check");
+  expect((await own(page)).supported?.unreached).toEqual([]);
+  // The loose cube stands on supports now.
+  await expect.poll(() => said(page, "Check")).toMatch(/^(Nothing found|Worth a look)$/);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await settled(page);
+  expect(await query()).toBe(before);
+});
+
+test("on a phone, preparing shows the search and then the check", async () => {
+  const page = await opened(PHONE);
+  await step(page, "Orient").tap();
+  await page.getByRole("button", { name: "Prepare automatically" }).tap();
+  await expect.poll(() => title(page).innerText()).toBe("Check");
+  await settled(page);
+  expect((await own(page)).supported?.points.length).toBeGreaterThan(0);
 });

@@ -19,32 +19,29 @@ async function settled(page: Page): Promise<void> {
 
 test("layers have the colours of the palette, each at its height, exact to one among 2,000", async () => {
   const page = await start();
-  for (const palette of ["classic", "safe"] as const) {
-    await page.evaluate(async (name) => {
-      const { harness } = window;
-      harness.show();
-      await harness.set({
-        positions: harness.solids.cone(10, 20, 64),
-        z_mm: [0, 12, 20],
-        thickness_mm: [12, 8],
-        limits: [8, 12],
-        palette: name,
-        aligned: true,
-        showsLegend: false,
-      });
-    }, palette);
-    const frame = (await heard(page, "cusp-frame")).at(-1)?.detail as { top_px: number; bottom_px: number };
-    const at = await picture(page);
-    const row = (z: number): number => frame.bottom_px + (z / 20) * (frame.top_px - frame.bottom_px);
-    const middle = ((await page.locator("cusp-view").boundingBox())?.width ?? 0) / 2;
-    const [thin, thick] = [colourAt(palette, 0), colourAt(palette, 1)];
-    for (const z of [1, 6, 11.7]) expect(likeness(at(middle, row(z)), thick), `at ${z} mm`).toBeGreaterThan(SAME);
-    for (const z of [12.3, 15, 18]) expect(likeness(at(middle, row(z)), thin), `at ${z} mm`).toBeGreaterThan(SAME);
-    expect(likeness(thin, thick)).toBeLessThan(SAME);
-    // Next to the cone, where it has become narrow, there is only background.
-    expect(at(middle + 150, row(19))).toEqual(at(middle - 150, row(19)));
-    expect(likeness(at(middle + 150, row(19)), thin)).toBeLessThan(SAME);
-  }
+  await page.evaluate(async () => {
+    const { harness } = window;
+    harness.show();
+    await harness.set({
+      positions: harness.solids.cone(10, 20, 64),
+      z_mm: [0, 12, 20],
+      thickness_mm: [12, 8],
+      limits: [8, 12],
+      aligned: true,
+      showsLegend: false,
+    });
+  });
+  const frame = (await heard(page, "cusp-frame")).at(-1)?.detail as { top_px: number; bottom_px: number };
+  const at = await picture(page);
+  const row = (z: number): number => frame.bottom_px + (z / 20) * (frame.top_px - frame.bottom_px);
+  const middle = ((await page.locator("cusp-view").boundingBox())?.width ?? 0) / 2;
+  const [thin, thick] = [colourAt(0), colourAt(1)];
+  for (const z of [1, 6, 11.7]) expect(likeness(at(middle, row(z)), thick), `at ${z} mm`).toBeGreaterThan(SAME);
+  for (const z of [12.3, 15, 18]) expect(likeness(at(middle, row(z)), thin), `at ${z} mm`).toBeGreaterThan(SAME);
+  expect(likeness(thin, thick)).toBeLessThan(SAME);
+  // Next to the cone, where it has become narrow, there is only background.
+  expect(at(middle + 150, row(19))).toEqual(at(middle - 150, row(19)));
+  expect(likeness(at(middle + 150, row(19)), thin)).toBeLessThan(SAME);
   const thickness = (layer: number): number => (layer % 3 === 0 ? 0.03 : 0.05);
   const z_mm = [0];
   for (let layer = 0; layer < 2000; layer++) z_mm.push((z_mm[layer] ?? 0) + thickness(layer));
@@ -57,7 +54,6 @@ test("layers have the colours of the palette, each at its height, exact to one a
         z_mm: boundaries,
         thickness_mm: boundaries.slice(1).map((z, i) => z - (boundaries[i] ?? 0)),
         limits: [0.03, 0.05],
-        palette: "classic",
         aligned: true,
         showsLegend: false,
         inset: { top_px: 0, bottom_px: 0 },
@@ -73,7 +69,7 @@ test("layers have the colours of the palette, each at its height, exact to one a
     for (let layer = first; layer < first + 10; layer++) {
       const middle = ((z_mm[layer] ?? 0) + (z_mm[layer + 1] ?? 0)) / 2;
       const row = (1 - (middle - bottom) / (top - bottom)) * (box?.height ?? 0);
-      const wanted = colourAt("classic", layer % 3 === 0 ? 0 : 1);
+      const wanted = colourAt(layer % 3 === 0 ? 0 : 1);
       expect(likeness(at((box?.width ?? 0) / 2, row), wanted), `layer ${layer}`).toBeGreaterThan(SAME);
     }
   }
@@ -198,7 +194,7 @@ test("the view holds no more on the GPU after six models than after two", async 
           await new Promise((resolve) => setTimeout(resolve, 200));
           while (harness.view.building !== null) await new Promise((resolve) => setTimeout(resolve, 5));
           await harness.set({ tool: "rotate" });
-          await harness.set({ tool: "turn", palette: i % 2 === 0 ? "safe" : "classic" });
+          await harness.set({ tool: "turn" });
         }
         return (window as unknown as { live: { count: number } }).live.count;
       },
@@ -290,8 +286,8 @@ test("the printed look has the steps of the layers, and their distances from the
   const row = (z: number): number => frame.bottom_px + (z / 10) * (frame.top_px - frame.bottom_px);
   const at = (z: number): [number, number] => [width / 2, row(z)];
   // A wall is on the cone half-way up, and farthest from it at its top.
-  expect(likeness(coloured(...at(2.5)), colourAt("safe", 1))).toBeGreaterThan(0.98);
-  expect(likeness(coloured(...at(4.9)), colourAt("safe", 0))).toBeGreaterThan(0.98);
+  expect(likeness(coloured(...at(2.5)), colourAt(1))).toBeGreaterThan(0.98);
+  expect(likeness(coloured(...at(4.9)), colourAt(0))).toBeGreaterThan(0.98);
   for (const z of [2.5, 4.9]) expect(likeness(coloured(...at(z)), plain(...at(z)))).toBeLessThan(0.98);
   // Distances are kept with the steps, not measured again.
   await page.evaluate(() => window.harness.set({ look: "printed" }));
@@ -324,7 +320,7 @@ test("the top of a table is coloured by what is under each place of it, and stri
   const box = await page.locator("cusp-view").boundingBox();
   const [x, y] = [(box?.width ?? 0) / 2, (box?.height ?? 0) / 2];
   // The thickness as a fraction of the scale, which ends at 4 mm: its first colour is the thinnest.
-  const [thin, thick] = [colourAt("safe", 0.25), colourAt("safe", 1)];
+  const [thin, thick] = [colourAt(0.25), colourAt(1)];
   const middle = async (): Promise<Pixel> => (await picture(page))(x, y);
   expect(likeness(await middle(), thin)).toBeGreaterThan(0.99);
   expect(likeness(await middle(), thick)).toBeLessThan(0.99);
@@ -597,11 +593,11 @@ test("where there is no WebGL a sentence says so, and the tools are disabled wit
   await show(page).catch(() => undefined);
   const controls = page.locator("cusp-model .bar input");
   await expect.poll(() => controls.evaluateAll((all) => all.every((it) => (it as HTMLInputElement).disabled))).toBe(true);
-  expect(await controls.count()).toBe(7);
+  expect(await controls.count()).toBe(6);
   const reason = page.getByText("These tools need the 3-D view, which is not available.");
   expect(await reason.isVisible()).toBe(true);
   const id = await reason.getAttribute("id");
-  expect(await controls.evaluateAll((all) => all.map((it) => it.getAttribute("aria-describedby")))).toEqual(Array(7).fill(id));
+  expect(await controls.evaluateAll((all) => all.map((it) => it.getAttribute("aria-describedby")))).toEqual(Array(6).fill(id));
   await page.getByText("WebGL 2 is switched off or missing").waitFor();
   expect(await broken(page)).toEqual([]);
 });
@@ -618,7 +614,7 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
   expect(await page.getByRole("radio", { checked: true }).count()).toBe(1);
   // One tab stop for all modes, and one for each switch.
   await page.keyboard.press("Tab");
-  for (const name of ["Beside the profile", "As printed", "Distance from the model", "Colour-blind safe"]) {
+  for (const name of ["Beside the profile", "As printed", "Distance from the model"]) {
     const it = page.getByRole("switch", { name });
     expect(await it.evaluate((it) => it === (it.getRootNode() as ShadowRoot).activeElement), name).toBe(true);
     const before = await it.isChecked();
@@ -626,7 +622,6 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
     expect(await it.isChecked(), name).toBe(!before);
     await page.keyboard.press("Tab");
   }
-  expect(await page.evaluate(() => window.harness.inner?.palette)).toBe("safe");
   expect(await broken(page)).toEqual([]);
 
   await show(page, SMALL);
@@ -646,7 +641,7 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
   await printed.click();
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
-  await page.getByRole("radio", { name: "What matters" }).click();
+  await page.getByRole("radio", { name: "Paint important areas" }).click();
   expect(await states()).toEqual([false, false, false]);
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
@@ -679,7 +674,7 @@ test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all 
         };
       }, width);
       const at = `${locale} at ${width}`;
-      expect(found, at).toMatchObject({ width, switches: 4, isInside: true });
+      expect(found, at).toMatchObject({ width, switches: 3, isInside: true });
       expect(found.least, at).toBeGreaterThanOrEqual(36);
       expect(found.height, at).toBeLessThanOrEqual(width === 260 ? 80 : 40);
     }
@@ -707,7 +702,7 @@ test("with the brush the model stays visible in a box 650 high, and all tools ca
     const plain = await heights(page);
     expect(plain.panel).toBe(650);
     expect(plain.view).toBeGreaterThan(540);
-    await page.getByRole("radio", { name: "What matters" }).click();
+    await page.getByRole("radio", { name: "Paint important areas" }).click();
     await page.getByText("Load weights").waitFor();
     await drawn(page);
     const { view, width: across, tools, lowest } = await heights(page);
@@ -839,9 +834,6 @@ const through = (page: Page, isLarge = false): Promise<Noted> =>
     let rows: Rows = null;
     inner.addEventListener("cusp-frame", ({ detail }) => (rows = detail));
     const noted: Noted = { wrong: [], frames: 0 };
-    // The event reports only changes.
-    panel.shadowRoot?.querySelector<HTMLInputElement>("[role=switch]")?.click();
-    await harness.drawn();
     panel.shadowRoot?.querySelector<HTMLInputElement>("[role=switch]")?.click();
     await harness.drawn();
     const look = (step: string): void => {

@@ -229,12 +229,12 @@ export function paths(engine: Engine): void {
       await give(mug.name);
       await visitor.state("done");
       const before = await visitor.layers();
-      await visitor.click("nav button", "Turn");
+      await visitor.click("nav button", "Orient");
       await visitor.click("button", "^Find the best orientation$");
       const best = (): Promise<Posed[]> =>
         session.call((dom) => (dom.all("cusp-orientation")[0] as CuspOrientation | undefined)?.searched?.best.map(({ rotation, energy, metrics }) => ({ rotation, energy, metrics })) ?? []);
       await expect.poll(best, { timeout: 40_000 }).not.toEqual([]);
-      const told = execFileSync(cusp ?? "cusp", ["orient", "--json", join(folder, mug.name)], { encoding: "utf8" });
+      const told = execFileSync(cusp ?? "cusp", ["orient", "--quality", "supports", "--json", join(folder, mug.name)], { encoding: "utf8" });
       const found = await best();
       expect(found.length).toBeGreaterThan(1);
       // JSON has no negative zeros.
@@ -252,7 +252,7 @@ export function paths(engine: Engine): void {
         await visitor.open(inject("address") + FEW);
         await visitor.drop(ball);
         await visitor.state("done");
-        await visitor.click("input[type=radio]", "^What matters$");
+        await visitor.click("input[type=radio]", "^Paint important areas$");
       };
       await brush();
       const before = await plan();

@@ -4,7 +4,6 @@ import { isFilament } from "../api/facts.js";
 import type { Candidate, Finding } from "../api/wire.js";
 import type { RotateDetail } from "../view/events.js";
 import type { MoveDetail } from "../view/scene/moving.js";
-import type { PaletteName } from "../view/legend/palette.js";
 import type { Tool } from "../view/scene/keys.js";
 import type { Rotation } from "../view/scene/pose.js";
 import { UPRIGHT } from "../view/scene/turn.js";
@@ -89,7 +88,6 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     @cusp-rotate=${(event: CustomEvent<RotateDetail>) => session.turn(event.detail.rotation, event.detail.final)}
     @cusp-layer=${(event: CustomEvent<number>) => session.selectLayer(event.detail)}
     @cusp-camera=${seen}
-    @cusp-palette=${recoloured}
   ></cusp-model>`;
 }
 
@@ -117,7 +115,7 @@ export function orientationPanel({ element, session, language }: Facts): Templat
     .metric=${settings.metric}
     .rotation=${turning ?? rotationOf(settings.rotation)}
     .language=${language}
-    @cusp-search=${() => orientation.start()}
+    @cusp-search=${() => void orientation.start()}
     @cusp-search-cancel=${() => orientation.cancel()}
     @cusp-aims=${(event: CustomEvent<Partial<Aims>>) => orientation.aim(event.detail)}
     @cusp-orient=${(event: CustomEvent<Candidate>) => session.orient(event.detail)}
@@ -211,11 +209,6 @@ export function besideView({ target, detail }: CustomEvent<PlotPlace>): void {
 function seen({ target, detail }: CustomEvent<Rotation>): void {
   const panel = beside(target, "cusp-orientation");
   if (panel !== null) panel.camera = detail;
-}
-
-function recoloured({ target, detail }: CustomEvent<PaletteName>): void {
-  const panel = beside(target, "cusp-orientation");
-  if (panel !== null) panel.palette = detail;
 }
 
 /** Activates a tool of the neighbouring 3-D view. */

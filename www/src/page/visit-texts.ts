@@ -44,7 +44,7 @@ export const visitWords = room("visit", {
     region: "Short tour",
     steps: [
       ["Look at the model", "Drag to turn it. Slide through its layers: the colours show how thick they are."],
-      ["Step by step", "Turn, check, hollow and support: take the steps that you need, in any order. In the last one you choose printer, resin and layers."],
+      ["Step by step", "Orient, hollow, support and check: take the steps that you need, in any order. In the last one you choose printer, resin and layers."],
       ["Take the file", "Here is what the print takes, and the file for your printer."],
     ],
     place: "{step} of {steps}",

@@ -22,15 +22,15 @@ test("each language but English has a dictionary", () => {
 test("a fault is named with its file and key", () => {
   const faulty = {
     "plan.nothing": "Nichts",
-    "plan.time": "ungefähr {zeit} zum Drucken",
-    "plan.resin": "",
+    "plan.resin": "ungefähr {menge} Harz",
+    "plan.own": "",
     "errors.bad-height": "Die Höhe ist {height_mm|metres}.",
     "plan.price": "Preis",
   };
   expect(faultsOf("xx.json", faulty)).toEqual([
     "xx.json: plan.nothing: English has no such key",
-    "xx.json: plan.time: the placeholders are zeit, not time",
-    "xx.json: plan.resin: the text is empty",
+    "xx.json: plan.resin: the placeholders are menge, not ml",
+    "xx.json: plan.own: the text is empty",
     "xx.json: errors.bad-height: there is no format metres",
   ]);
   expect(untranslated(faulty)).toContain("plan.region");

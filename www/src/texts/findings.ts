@@ -13,11 +13,11 @@ const FINDINGS = {
     island: "Islands",
     "loose-body": "Loose bodies",
     "separate-body": "Separate bodies",
-    speck: "Specks",
+    speck: "Loose pixels",
     overhang: "Overhangs",
-    cup: "Suction cups",
+    cup: "Suction areas",
     trap: "Trapped resin",
-    "small-escape": "Narrow escapes",
+    "small-escape": "Narrow drains",
     "thin-wall": "Thin walls",
     "thin-floor": "Thin floors",
     "narrow-gap": "Narrow gaps",
@@ -116,8 +116,8 @@ export function saidOf({ code, area_mm2, volume_mm3, limit, layers: [first, last
   };
 }
 
-/** Formats a figure with four significant digits. */
-const figure = (value: number, format: Format): string => format.exact(Number(value.toPrecision(4)));
+/** Formats a figure with four significant digits, or two below 1. */
+const figure = (value: number, format: Format): string => format.exact(Number(value.toPrecision(value < 1 ? 2 : 4)));
 
 function limitOf(code: Code, limit: number, format: Format): string {
   if (code === "small-contact") return format.percent(limit, 1);

@@ -2,7 +2,7 @@
 import { room } from "./messages.js";
 
 export const paintingTexts = room("painting", {
-  title: "What matters",
+  title: "Paint important areas",
   hint: "The tolerance holds where the weight is 100%. Where something matters less, layers may be thicker. Paint on the model; drag beside it to turn the view.",
   brush: "Brush",
   modes: { less: "Matters less", more: "Matters more", erase: "Erase", soften: "Soften" },

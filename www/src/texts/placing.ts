@@ -35,7 +35,7 @@ export const placingTexts = room("placing", {
   /** Label of the switch by which automatic supports and drain holes avoid large painted weights. */
   protect: "Keep points and holes off what is painted as important",
   /** Explains that it applies to both, and needs painted weights. */
-  protectHint: "For points and holes alike. Paint with “What matters” first.",
+  protectHint: "For points and holes alike. Paint important areas first.",
   /** Label of the button that saves plugs for the holes. */
   plugs: "Download plugs (STL)",
   /** Explains the use of plugs. */

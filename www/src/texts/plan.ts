@@ -4,7 +4,6 @@ export const plan = {
   plan: {
     region: "The plan",
     layers: "{count|one:layer|other:layers}",
-    time: "about {time} to print",
     resin: "{ml} of resin",
     price: "Price",
     download: "Download print file",

@@ -66,7 +66,18 @@ export class CuspWorkbench extends SlicerElement {
       answers: (name) => this.#set(() => (this.#answer = name)),
       open: (sheet) => this.#open(sheet),
       placed: (plot) => this.#set(() => (this.#plot = plot)),
+      prepare: () => void this.#prepare(),
     });
+  }
+
+  /** Shows the search for a direction, then the check of the prepared model. */
+  async #prepare(): Promise<void> {
+    const show = (step: Step): void => {
+      this.#set(() => (this.#step = step));
+      if (!this.#isWide) this.#open(step);
+    };
+    show("turn");
+    if (await this.session.prepare()) show("check");
   }
 
   async #go(step: Step, from: "foot" | "row"): Promise<void> {

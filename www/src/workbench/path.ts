@@ -53,8 +53,9 @@ function badge(mark: Mark, number: string): string | TemplateResult {
  * The panel of a step, with buttons to the previous and next steps.
  *
  * @param taken called when a tool of the view was activated
+ * @param first shown above the step's own content
  */
-export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, taken: () => void): TemplateResult {
+export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, taken: () => void, first: TemplateResult | typeof nothing = nothing): TemplateResult {
   const { language } = facts;
   const words = workbenchWords(language);
   const isUnused = isFilament(facts.session.settings.format) && (step === "hollow" || step === "support");
@@ -64,7 +65,7 @@ export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, ta
   // Turning has no settings besides turning by hand.
   return html`<div class="panel" tabindex="0" role="group" aria-labelledby="step-title">
       <p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>
-      ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
+      ${first} ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
       ${isLast ? foot : nothing}
     </div>
     ${isLast ? nothing : foot}`;

@@ -2,7 +2,7 @@
 import type { Tool } from "../view/scene/keys.js";
 
 /** Steps from a model to its print file, in the usual order; each can be skipped and repeated. */
-export const STEPS = ["turn", "check", "hollow", "support", "slice"] as const;
+export const STEPS = ["turn", "hollow", "support", "check", "slice"] as const;
 /** Panels at the side of the result. */
 export const ANSWERS = ["quality", "layers"] as const;
 /** Panels other than steps that are sheets on a narrow screen, in the order of its bar. */

@@ -54,6 +54,9 @@ test("a check is told by its verdict", () => {
   expect(checked("ok")).toEqual({ words: "Nothing found", mark: "done" });
   expect(checked("review")).toEqual({ words: "Worth a look", mark: "look" });
   expect(checked("reject")).toEqual({ words: "Will fail", mark: "wrong" });
+  // No tick on a file that will fail.
+  expect(states({ verdict: "review" }).slice.mark).toBe("done");
+  expect(states({ verdict: "reject" }).slice.mark).toBe("look");
 });
 
 test("a hollow model has walls, which may need a look", () => {

@@ -43,7 +43,7 @@ export function stepStates(session: Walked, language: Language): Readonly<Record
       ? { words: words.wrong, mark: "wrong" }
       : result === null || shown === null
         ? { words: "–", mark: null }
-        : { words: `${format.count(shown.layers)} ${texts.plan.layers({ count: shown.layers })}`, mark: earlier ? "look" : "done" },
+        : { words: `${format.count(shown.layers)} ${texts.plan.layers({ count: shown.layers })}`, mark: earlier || check?.verdict === "reject" ? "look" : "done" },
   };
 }
 

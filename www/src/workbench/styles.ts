@@ -208,6 +208,15 @@ export const workbenchStyles = css`
     line-height: 1.4;
     text-wrap: pretty;
   }
+  .prepare {
+    display: grid;
+    gap: 0.25rem;
+    margin-top: 0.375rem;
+    font-size: 0.8125rem;
+  }
+  .panel > .prepare {
+    margin-block: 0 0.875rem;
+  }
   .by-hand,
   .missing {
     margin-top: 0.875rem;
@@ -407,8 +416,7 @@ export const workbenchStyles = css`
   .plan .count {
     font-size: 2.75rem;
   }
-  .plan .count span,
-  .plan .time {
+  .plan .amount {
     font-size: 1rem;
   }
   .plan .gain {

@@ -44,6 +44,8 @@ export interface Bench {
   answers(name: AnswerPanel): void;
   open(sheet: Sheet | null): void;
   placed(plot: PlotPlace): void;
+  /** Prepares the selected model for print. */
+  prepare(): void;
 }
 
 export function template(facts: Facts, bench: Bench): TemplateResult {
@@ -128,7 +130,7 @@ function overlay(facts: Facts): TemplateResult {
 function choicesSide(facts: Facts, bench: Bench): TemplateResult {
   const step = stepOf(facts, bench);
   return html`<div class="side choices">
-    ${modelSection(facts)}
+    ${modelSection(facts, prepareButton(facts, bench))}
     ${step === null
       ? nothing
       : html`<section class="card tabbed" part="settings">
@@ -142,10 +144,20 @@ function stepTitle({ language }: Facts, step: Step): TemplateResult {
   return html`<h2 id="step-title" tabindex="-1">${workbenchWords(language).steps[step]}</h2>`;
 }
 
-function modelSection(facts: Facts): TemplateResult {
+/** Button that prepares the selected model, with what it does; disabled while a search or a task runs. */
+function prepareButton({ session, language }: Facts, bench: Bench): TemplateResult {
+  const words = workbenchWords(language);
+  const isPossible = session.busy === null && session.orientation.busy === null && session.orientation.isPossible;
+  return html`<div class="prepare">
+    <button class="small" ?disabled=${!isPossible} title=${words.prepareHint} @click=${() => bench.prepare()}>${words.prepare}</button>
+    ${bench.isWide ? nothing : html`<p class="quiet">${words.prepareHint}</p>`}
+  </div>`;
+}
+
+function modelSection(facts: Facts, below: TemplateResult | typeof nothing = nothing): TemplateResult {
   const { session, language, picked } = facts;
   const actions = { picked, openFile: (place: number) => void session.openFile(place) };
-  return modelCard(session, language, actions, nothing, platePanel(facts));
+  return modelCard(session, language, actions, nothing, html`${platePanel(facts)} ${below}`);
 }
 
 function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
@@ -224,8 +236,8 @@ function bar(facts: Facts, { sheet, open }: Bench): TemplateResult {
         <span class="visually-hidden">${words.more}</span>
         ${result === null
           ? html`<strong>–</strong>`
-          : html`<strong data-layers=${layers}>${format.count(layers)} ${texts.plan.layers({ count: layers })}</strong>
-              ${isFilament(result.report.print_file.format) ? nothing : html`<span>${format.time(print_time_s)}</span>`}`}
+          : html`${isFilament(result.report.print_file.format) ? nothing : html`<strong>${format.time(print_time_s)}</strong>`}
+              <span data-layers=${layers}>${format.count(layers)} ${texts.plan.layers({ count: layers })}</span>`}
       </button>
       ${result === null ? nothing : downloadButton(facts)}
     </div>
@@ -249,7 +261,7 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
       <button class="small close" @click=${() => open(null)}>${facts.language.texts.notices.close}</button>
     </div>
     ${isOfPath
-      ? stepPanel(facts, sheet, (step) => bench.go(step, "foot"), () => open(null))
+      ? stepPanel(facts, sheet, (step) => bench.go(step, "foot"), () => open(null), sheet === "turn" ? prepareButton(facts, bench) : nothing)
       : html`<div class="panel">${sheetPanel(facts, sheet)}</div>`}
   </section>`;
 }

@@ -5,7 +5,7 @@ export const workbenchWords = room("workbench", {
   /** Label of the buttons for sheets other than steps. */
   choices: "Look into the result",
   /** Label of the row of tabs. */
-  answers: "What comes out",
+  answers: "Result",
   mask: "Mask",
   result: "Result",
   /** Label of the button that opens the sheet with the result. */
@@ -16,7 +16,7 @@ export const workbenchWords = room("workbench", {
   exposure: "{seconds} of light for {thickness}",
   /** Label of the row of steps. */
   path: "Steps",
-  steps: { turn: "Turn", check: "Check", hollow: "Hollow", support: "Support", slice: "Slice" },
+  steps: { turn: "Orient", check: "Check", hollow: "Hollow", support: "Support", slice: "Slice" },
   /** Purpose of each step. */
   hints: {
     turn: "How the model lies decides what needs support, and how long it prints.",
@@ -25,6 +25,8 @@ export const workbenchWords = room("workbench", {
     support: "Whatever begins in the air or leans far out needs a support.",
     slice: "Say what you print with.",
   },
+  prepare: "Prepare automatically",
+  prepareHint: "Turns the model, supports it, hollows a large one, and checks the result.",
   back: "Back",
   next: "Next: {step}",
   /** Labels of buttons that activate a tool of the view. */

@@ -14,7 +14,7 @@ import { findingsStyles } from "../styles/findings-styles.js";
 import { shared } from "../styles/shared.js";
 import { shown } from "../../api/visible.js";
 
-/** Number of findings per kind that are shown initially. */
+/** Number of findings per kind that are shown initially; none of those that are notes. */
 const FEW = 3;
 
 /** A tick; an exclamation mark; a cross. */
@@ -130,16 +130,18 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   #kind({ code, found }: Count, severity: Shown, { findings }: Checked["found"], id: string, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const listed = findings.filter((finding) => finding.code === code);
-    const isChosenLate = this.chosen !== null && listed.indexOf(this.chosen) >= FEW;
-    const shown = this.whole.has(id) || isChosenLate ? listed : listed.slice(0, FEW);
+    const isNote = severity === "note";
+    const few = isNote ? 0 : FEW;
+    const isChosenLate = this.chosen !== null && listed.indexOf(this.chosen) >= few;
+    const shown = this.whole.has(id) || isChosenLate ? listed : listed.slice(0, few);
     return html`<section aria-labelledby=${id}>
       <h4 id=${id}>
         ${sign(severity)} <span class="name">${words.kinds[code]}</span> <span class="count figures">${format.count(found)}</span>
         <span class="severity quiet">${words.severities[severity]}</span>
       </h4>
-      <p class="quiet" id="${id}-advice">${words.advice[code]}</p>
+      ${isNote ? nothing : html`<p class="quiet" id="${id}-advice">${words.advice[code]}</p>`}
       <ul>
-        ${shown.map((finding) => this.#item(finding, id, words))}
+        ${shown.map((finding) => this.#item(finding, isNote ? nothing : `${id}-advice`, words))}
       </ul>
       ${shown.length < listed.length
         ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, id]))}>${words.all({ count: format.count(listed.length) })}</button>`
@@ -149,7 +151,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     </section>`;
   }
 
-  #item(finding: Finding, id: string, words: FindingsTexts): TemplateResult {
+  #item(finding: Finding, advice: string | typeof nothing, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const { at_mm, layers: [first, last], code } = finding;
     const place = `${at_mm.map((mm) => format.tick(Math.round(mm * 100) / 100)).join(" / ")}\u00a0mm`;
@@ -158,7 +160,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       <button
         class="finding"
         aria-pressed=${finding === this.chosen ? "true" : "false"}
-        aria-describedby="${id}-advice"
+        aria-describedby=${advice}
         ?disabled=${!this.isCurrent}
         @click=${() => this.checks?.choose(finding)}
       >

@@ -7,7 +7,6 @@ import type { Printer } from "../../api/wire.js";
 import { languageOf, type Language } from "../../texts/index.js";
 import type { Mark } from "../../view/scene/marker.js";
 import type { Look } from "../../view/scene/model.js";
-import type { PaletteName } from "../../view/legend/palette.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { heightOf } from "../../view/scene/turn.js";
 import type { Copy as Standing } from "../../view/scene/copies.js";
@@ -96,9 +95,8 @@ const PROPERTIES = {
   isBroken: own(false),
   tool: own<Tool>("turn"),
   look: own<Look>("thickness"),
-  palette: own<PaletteName>("classic"),
   /** True to align heights with the chart, when it is next to the view and neither painting nor the printed look need another camera. */
-  aligned: own(true),
+  aligned: own(false),
   settings: given(DEFAULT_SETTINGS),
   /** The session for placing points by hand, with the settings above; null if that is not possible. */
   edited: given<Edited | null>(null),
@@ -194,7 +192,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
         tool,
         isPrinted,
         isMeasured,
-        isSafe: this.palette === "safe",
         isAligned: isAligned && this.canAlign,
         isBeside: this.plot === null ? null : this.canAlign && !isPlate,
         isTurned,
@@ -204,7 +201,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
         chosen: (tool) => (this.tool = tool),
         printed: (on) => this.#look(on ? "printed" : "thickness"),
         measured: (on) => this.#look(on ? "distance" : "printed"),
-        safe: this.#otherPalette,
         aligned: this.#align,
         upright: this.#upright,
       })}
@@ -240,7 +236,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
               @cusp-select=${this.#pressed}
               @cusp-paint=${this.#painted}
               .showsLegend=${tool !== "drains" || showsHeat}
-              .palette=${this.palette}
               .tool=${tool}
               .aligned=${isAligned && this.plot !== null}
               .plot=${this.plot?.over ?? null}
@@ -293,11 +288,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
       tellPartFailed(this, "view", error);
     }
   }
-
-  readonly #otherPalette = (): void => {
-    this.palette = this.palette === "safe" ? "classic" : "safe";
-    this.#say<PaletteName>("cusp-palette", this.palette);
-  };
 
   /** Leaves the tools that use their own colours. */
   #look(look: Look): void {

@@ -1,4 +1,4 @@
-/** Figures of a result: layers, print time, savings, and a comparison with uniform layers. */
+/** Figures of a result: print time, layers, resin, savings, and a comparison with uniform layers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../../api/facts.js";
 import type { PrintThroughReport } from "../../api/wire.js";
@@ -49,20 +49,20 @@ export const summaryStyles = css`
     gap: 0.25rem 1.5rem;
   }
   .count {
-    display: flex;
-    align-items: baseline;
-    gap: 0.625rem;
     font-size: clamp(2.75rem, 2rem + 3vw, 4rem);
     font-weight: 650;
     line-height: 1;
     letter-spacing: -0.02em;
     font-variant-numeric: tabular-nums;
   }
-  .count span,
-  .time {
+  .count small,
+  .amount {
     font-size: 1.25rem;
     font-weight: 500;
     letter-spacing: 0;
+  }
+  .amount small {
+    font-size: inherit;
   }
   .gain {
     margin-top: 0.5rem;
@@ -183,13 +183,14 @@ export const summaryStyles = css`
 export function figures(result: Result, shown: Pick<Shown, "layers" | "print_time_s">, language: Language): TemplateResult {
   const { report } = result;
   const { texts, format } = language;
+  const layers = html`<span data-layers=${shown.layers}>${format.count(shown.layers)} <small>${texts.plan.layers({ count: shown.layers })}</small></span>`;
   return html`<div>
     <div class="figure">
-      <p class="count" data-layers=${shown.layers}>${format.count(shown.layers)}<span>${texts.plan.layers({ count: shown.layers })}</span></p>
       ${isFilament(report.print_file.format)
-        ? nothing
-        : html`<p class="time">${texts.plan.time({ time: format.time(shown.print_time_s) })}</p>
-            <p class="time resin">${texts.plan.resin({ ml: format.millilitres(report.resin_ml) })}</p>`}
+        ? html`<p class="count">${layers}</p>`
+        : html`<p class="count"><span class="visually-hidden">${texts.plan.columns.time}</span> ${format.time(shown.print_time_s)}</p>
+            <p class="amount">${layers}</p>
+            <p class="amount">${texts.plan.resin({ ml: format.millilitres(report.resin_ml) })}</p>`}
     </div>
     <p class="gain">${sentence(result, language)}</p>
   </div>`;

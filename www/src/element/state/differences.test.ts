@@ -19,7 +19,7 @@ test("islands and cups are compared where they are the aim", () => {
   const other = { layers: 1200, islands: 3, cups_mm2: 12.3 };
   expect(words(other)).toEqual(["Same number of layers"]);
   expect(words(other, { quality: "islands" })).toEqual(["Same number of layers", "3 islands more"]);
-  expect(words(other, { quality: "cups" })).toEqual(["Same number of layers", "12\u00a0mm² more cup area"]);
+  expect(words(other, { quality: "cups" })).toEqual(["Same number of layers", "12\u00a0mm² more suction area"]);
 });
 
 test("the chosen cost and quality decide what is compared", () => {

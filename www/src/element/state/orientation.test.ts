@@ -80,7 +80,7 @@ beforeEach(() => {
 });
 
 test("a search shows measured candidates, its progress, and finally the best", async () => {
-  directions.start();
+  void directions.start();
   expect(directions.busy).toMatchObject({ task: "orient", stage: "orientation" });
   last().call.onProgress?.("orientation", 0.5, 0.5);
   const found = { directions: new Float64Array(6), candidates: [candidate(1), null] };
@@ -95,12 +95,12 @@ test("a search shows measured candidates, its progress, and finally the best", a
 
 test("without a model, or with invalid settings, no search starts", () => {
   subject = null;
-  directions.start();
+  void directions.start();
   expect(asked).toEqual([]);
 });
 
 test("new aims rate the measured candidates again; aims changed during a search are rated once, at its end", async () => {
-  directions.start();
+  void directions.start();
   const measured = [candidate(1), candidate(2)];
   directions.aim({ alpha: 0.3 });
   directions.aim({ alpha: 0.2 });
@@ -115,7 +115,7 @@ test("new aims rate the measured candidates again; aims changed during a search 
 });
 
 test("a cancelled search keeps what it measured, and ignores late results", async () => {
-  directions.start();
+  void directions.start();
   const { call } = last();
   const found = { directions: new Float64Array(3), candidates: [candidate(1)] };
   call.onCandidates?.(found);
@@ -130,7 +130,7 @@ test("a cancelled search keeps what it measured, and ignores late results", asyn
 });
 
 test("an error ends the search and is reported", async () => {
-  directions.start();
+  void directions.start();
   const error = new SlicerError("crash", "no", { system: "no" });
   await last().refuse(error);
   expect(failures).toEqual([error]);
@@ -138,7 +138,7 @@ test("an error ends the search and is reported", async () => {
 });
 
 test("a search is outdated when something changes that it depends on, and only then", async () => {
-  directions.start();
+  void directions.start();
   await last().answer([candidate(1)]);
   const given = subject;
   if (given === null) throw new Error("there is a subject");
@@ -164,7 +164,7 @@ test("a search is outdated when something changes that it depends on, and only t
 test("a height belongs to the pose: the search is outdated by another rotation, not by applying a candidate", async () => {
   const options: Options = { height_mm: 50, rotation: [0, 0, 0, 1] };
   subject = { name: "a.stl", options, weights: null };
-  directions.start();
+  void directions.start();
   await last().answer([candidate(1)]);
   subject = { name: "a.stl", options: { ...options, rotation: [1, 0, 0, 0] }, weights: null };
   expect(directions.isCurrent).toBe(false);
@@ -181,7 +181,7 @@ function pose(rotation: Options["rotation"]): void {
 
 test("the pose now is that of a candidate, if there is one, and else it is measured once", async () => {
   const [upright, over] = [candidate(1), candidate(2, { rotation: [1, 0, 0, 0] })];
-  directions.start();
+  void directions.start();
   await directions.measure();
   expect(directions.now).toBeNull();
   await last().answer([upright, over]);
@@ -204,7 +204,7 @@ test("the pose now is that of a candidate, if there is one, and else it is measu
 });
 
 test("a pose is not measured for settings that the search was not for, and a late answer is not that of another pose", async () => {
-  directions.start();
+  void directions.start();
   await last().answer([candidate(1)]);
   const before = directions.now;
   pose([0, 0.6, 0, 0.8]);
@@ -219,7 +219,7 @@ test("a pose is not measured for settings that the search was not for, and a lat
   pose([0.6, 0, 0, 0.8]);
   await measuring[0]?.answer(candidate(9));
   expect(directions.now).toBe(before);
-  directions.start();
+  void directions.start();
   expect(directions.now).toBeNull();
 });
 
@@ -229,20 +229,18 @@ test("poses are the same to the digits that settings keep", () => {
   expect(isPose(undefined, [0, 0, 0, 1])).toBe(false);
 });
 
-test("the highest energy is red, the lowest blue, excluded directions grey, unknown ones clear", () => {
+test("energies have the colours of the scale, the lowest that of the thickest layer, excluded directions grey, unknown ones clear", () => {
   const candidates = [candidate(0.4), candidate(0.8), candidate(0.6), candidate(null, { excluded: "too-high" }), null, candidate(null)];
   expect(energyRange(candidates)).toEqual([0.4, 0.8]);
   expect(energyRange([null])).toBeNull();
-  for (const palette of ["classic", "safe"] as const) {
-    const [least, greatest, middle, excluded, unknown, unrated] = coloursOf(candidates, palette);
-    expect(least).toEqual(colourAt(palette, 1));
-    expect(greatest).toEqual(colourAt(palette, 0));
-    expect(middle).toEqual(colourAt(palette, 0.5));
-    if (excluded == null) throw new Error("what does not fit has a colour");
-    expect(Math.max(...excluded) - Math.min(...excluded)).toBeLessThan(20);
-    expect([unknown, unrated]).toEqual([null, null]);
-  }
-  expect(coloursOf([candidate(1)], "classic")).toEqual([colourAt("classic", 1)]);
+  const [least, greatest, middle, excluded, unknown, unrated] = coloursOf(candidates);
+  expect(least).toEqual(colourAt(1));
+  expect(greatest).toEqual(colourAt(0));
+  expect(middle).toEqual(colourAt(0.5));
+  if (excluded == null) throw new Error("what does not fit has a colour");
+  expect(Math.max(...excluded) - Math.min(...excluded)).toBeLessThan(20);
+  expect([unknown, unrated]).toEqual([null, null]);
+  expect(coloursOf([candidate(1)])).toEqual([colourAt(1)]);
 });
 
 test("metrics are written in the language; an excluded candidate has only its size", () => {
@@ -255,7 +253,7 @@ test("metrics are written in the language; an excluded candidate has only its si
     Roughness: "12.3\u00a0µm",
     Overhang: "50\u00a0mm²",
     Islands: "0",
-    Cups: "0\u00a0mm²",
+    "Suction areas": "0\u00a0mm²",
     Supports: "0\u00a0ml",
     Contacts: "0\u00a0mm²",
     Size: "1.0 × 2.0 × 3.0\u00a0mm",

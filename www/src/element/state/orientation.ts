@@ -43,8 +43,11 @@ export const DEFAULT_AIMS: Aims = {
   most_cups_mm2: undefined,
 };
 
+/** Initial aims on the page: few layers and little support. */
+const AIMS: Aims = { ...DEFAULT_AIMS, quality: "supports" };
+
 export class OrientationSearch {
-  aims = DEFAULT_AIMS;
+  aims = AIMS;
   /** The candidates measured so far; null before a search. */
   found: Found | null = null;
   /** Best candidates that differ from one another, best first; empty until known. */
@@ -83,14 +86,14 @@ export class OrientationSearch {
     return now !== null && this.#of?.weights === now.weights && this.#keys.has(keyOf(now.options));
   }
 
-  /** Starts a new search. */
-  start(): void {
+  /** Starts a new search; resolves once it has ended. */
+  async start(): Promise<void> {
     const subject = this.#host.subject();
     if (subject === null) return;
     this.forget();
     this.#of = subject;
     this.#keys.add(keyOf(subject.options));
-    void this.#run(subject);
+    await this.#run(subject);
   }
 
   /** Stops a search; its measurements stay visible. */

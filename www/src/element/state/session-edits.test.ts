@@ -182,7 +182,7 @@ test("applying a candidate is an undo step; with a height, the scale stays", asy
 
 test("a search runs beside plans, and is forgotten with its model", async () => {
   await planned();
-  session.orientation.start();
+  void session.orientation.start();
   const search = slicer.last;
   expect(search.what).toBe("orient");
   expect(session.busy).toBeNull();

@@ -18,6 +18,7 @@ import { Models } from "./models.js";
 import type { Busy } from "../parts/progress.js";
 import type { TowersState } from "../parts/towers-offer.js";
 import { areSame, shownOf, type Result, type Shown } from "./result.js";
+import { prepared } from "./prepared.js";
 import { DEFAULT_SETTINGS, rotationText } from "./settings.js";
 import { read } from "./typed.js";
 
@@ -166,6 +167,20 @@ export class Session extends Models {
     this.change(withPose(this.settings, candidate));
     if (this.options !== null) this.orientation.applied(this.options);
     this.host.oriented?.(candidate);
+  }
+
+  /** Turns the model to its best direction, supports it, and hollows it if it takes much resin: one step back. False if nothing was found. */
+  async prepare(): Promise<boolean> {
+    const { model, orientation } = this;
+    if (model === null || orientation.busy !== null) return false;
+    if (!orientation.isCurrent || orientation.best.length === 0) await orientation.start();
+    const [best] = orientation.best;
+    if (best === undefined || this.model !== model) return false;
+    this.#preview.stop();
+    this.change(prepared(this.settings, best, this.result?.own?.resin_ml ?? 0));
+    if (this.options !== null) orientation.applied(this.options);
+    this.host.oriented?.(best);
+    return true;
   }
 
   protected override painted(isFinal: boolean): void {

@@ -30,7 +30,7 @@ export const copiesStyles = css`
     display: flex;
     align-items: center;
     flex-wrap: wrap;
-    gap: 0.5rem;
+    gap: 0.375rem;
     margin-top: 0.625rem;
     font-size: 0.875rem;
   }
@@ -39,7 +39,8 @@ export const copiesStyles = css`
   }
   .copies-row .copies ~ .button {
     margin-inline-start: auto;
-    padding-inline: 0.5rem;
+    padding-inline: 0.375rem;
+    font-size: 0.8125rem;
   }
   .copies input,
   .spacing,
