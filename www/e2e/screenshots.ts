@@ -39,7 +39,7 @@ async function whole(page: Page, path: string): Promise<void> {
 }
 
 /** The page as a workbench, slightly smaller than on a screen, to limit the size of the picture. */
-const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.75 };
+const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.7 };
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: DESKTOP },

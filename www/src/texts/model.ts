@@ -15,7 +15,7 @@ export const model = {
     region: "The model",
     size: "Size",
     sizeHelp: "width × depth × height",
-    scaled: "scaled from {from}",
+    inFile: "{size} in the file",
     facets: "Facets",
     surface: "Surface",
     closed: "Watertight",

@@ -52,6 +52,8 @@ export const settings = {
     printer: "Printer",
     noPrinter: "No printer",
     noPrinterHint: "Choose a printer to get a file for it.",
+    /** What is known of a printer, beside its name in the list. */
+    layersOf: { yes: "adaptive layers confirmed", no: "one thickness" },
     ownPrinter: "Own printer…",
     openPrinter: "Open its description",
     ownPrinterHint: "A JSON file with at least pixels, pitch_um and volume_mm.",

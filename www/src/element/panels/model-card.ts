@@ -7,7 +7,6 @@ import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
 import { adviseOn, allowed, bestUniform } from "../state/advice.js";
 import { enough } from "../state/comparison.js";
-import { ownHeight } from "../state/result.js";
 import type { Session } from "../state/session.js";
 
 export const modelStyles = css`
@@ -94,18 +93,16 @@ export function modelCard(
   if (model === null) return html``;
   const { name, info } = model;
   const own = info.size_mm;
-  // The height of a plate is that of its highest model.
-  const height_mm = session.plate.isSeveral ? session.plate.heightOf(place) : result === null ? undefined : ownHeight(result.report);
-  const scale = height_mm && own[2] !== 0 ? height_mm / own[2] : 1;
-  const isScaled = session.settings.rotation === "" && Math.abs(scale - 1) > 1e-3;
-  const size = (isScaled ? own.map((mm) => mm * scale) : own) as [number, number, number];
+  // As it stands, without supports.
+  const size = result?.own?.size_mm ?? own;
+  const isOfFile = size.every((mm, axis) => Math.abs(mm - (own[axis] ?? 0)) <= 1e-3 * mm);
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>
     <h2 class="model-name" tabindex="-1">${name}</h2>
     <dl class="figures">
       <div>
         <dt>${texts.model.size}</dt>
         <dd title=${texts.model.sizeHelp}>${format.dimensions(size)}</dd>
-        ${isScaled ? html`<dd class="quiet">${texts.model.scaled({ from: format.dimensions(own) })}</dd>` : nothing}
+        ${isOfFile ? nothing : html`<dd class="quiet">${texts.model.inFile({ size: format.dimensions(own) })}</dd>`}
       </div>
       <div>
         <dt>${texts.model.facets}</dt>

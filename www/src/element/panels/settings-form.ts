@@ -172,11 +172,16 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { settings, offered, language, isOpening } = this;
     const words = language.texts.settings;
     const value = isOpening ? OPEN : typeof settings.printer === "string" ? settings.printer : OWN;
+    const layersOf = new Map(offered.printers.map(({ name, variable_layers }) => [name, variable_layers]));
+    const marked = ([name, model]: readonly [string, string]): readonly [string, string] => {
+      const known = layersOf.get(name) ?? "untried";
+      return [name, known === "untried" ? model : `${model} — ${words.layersOf[known]}`];
+    };
     // Each group has a fixed place, so that no option turns into another.
     const list = html`${options([["", words.noPrinter]], value)}
       ${this.#own === null ? nothing : options([[OWN, modelOf(this.#own)]], value)}
       ${options([[OPEN, words.ownPrinter]], value)}
-      ${byMaker(offered.printers).map(([maker, models]) => html`<optgroup label=${maker}>${options(models, value)}</optgroup>`)}`;
+      ${byMaker(offered.printers).map(([maker, models]) => html`<optgroup label=${maker}>${options(models.map(marked), value)}</optgroup>`)}`;
     const change = (value: string): void => {
       // Shows a button rather than a file dialog: arrow keys also change a closed list.
       this.isOpening = value === OPEN;
