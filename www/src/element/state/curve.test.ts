@@ -80,3 +80,17 @@ test("finer plans are further along; those finer or coarser than all points are 
   const at = (max_error: number): number => placeAmong(points, point(max_error, 7, max_error, 1));
   expect([0.01, 0.09375, 0.125, 0.1875, 9].map(at)).toEqual([2, 1.5, 1, 0.5, 0]);
 });
+
+test("the curve is there again after a plan of other options, and after an abort", async () => {
+  const plan = point(0.065, 134, 0.002, 1920);
+  const [adaptive, other] = [resultOf(plan), { ...resultOf(plan), options: { rays: 512 } }];
+  const curve = await curveOf(PRISM, plan);
+  curve.fit(other);
+  expect(curve.points).toBeNull();
+  curve.fit(adaptive);
+  const aborting: Pick<Slicer, "tradeoff"> = { tradeoff: () => Promise.reject(new DOMException("ended", "AbortError")) };
+  await expect(curve.fetch(aborting, adaptive)).rejects.toThrow("ended");
+  const slicer: Pick<Slicer, "tradeoff"> = { tradeoff: async () => ({ schema: SCHEMA, points: PRISM }) };
+  expect(await curve.fetch(slicer, adaptive)).toBe(true);
+  expect(curve.points).toEqual([PRISM[0]]);
+});

@@ -24,7 +24,7 @@ export class Curve {
 
   /** Forgets the points if they belong to other options than this result. */
   fit(result: Result): void {
-    if (keyOf(result) !== this.#of) this.points = null;
+    if (keyOf(result) !== this.#of) this.forget();
   }
 
   /** Fetches the curve for a result. Returns false if it is known or the plan is uniform. Rejects on a crash or an abort. */
@@ -35,7 +35,10 @@ export class Curve {
     const { tolerance: _, ...options } = result.options;
     const { points } = await slicer.tradeoff(options, POINTS).catch((error: unknown) => {
       // A plan may exist without a curve, so only crashes and aborts are reported.
-      if (asSlicerError(error).code === "crash" || isAbort(error)) throw error;
+      if (asSlicerError(error).code === "crash" || isAbort(error)) {
+        if (this.#of === key) this.forget();
+        throw error;
+      }
       return { points: null };
     });
     if (this.#of === key) this.points = points === null ? null : merged(points);
