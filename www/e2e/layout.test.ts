@@ -105,6 +105,10 @@ test("no text is cut, sticks out or lies on another in any language, on a deskto
   }
   await drop(page, { name: `${"a-very-long-name-".repeat(8)}.stl`, bytes: ball.bytes });
   await state(page, "done");
+  // The printer takes one thickness; adaptive layers have more panels.
+  const planners = page.locator("cusp-settings input[name=planner]");
+  await expect.poll(() => planners.last().isChecked()).toBe(true);
+  await planners.first().evaluate((it) => (it as HTMLInputElement).click());
   await page.locator("cusp-quality svg").waitFor();
   // The narrowest window with both sides, and the narrowest phone: wider ones have more room.
   for (const code of LANGUAGES) {
@@ -338,6 +342,8 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
   await page.getByText("More settings").click();
   await page.locator("details.figures summary").click();
   await page.getByLabel("Printer", { exact: true }).selectOption("photon-mono-m5s");
+  await page.getByText("so they are uniform").waitFor();
+  await page.getByText("Adaptive", { exact: true }).click();
   await settled(page);
   await page.locator(".warning .offers button").waitFor();
   await page.getByLabel("Printer", { exact: true }).selectOption("Own printer…");

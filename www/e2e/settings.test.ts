@@ -124,7 +124,12 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   // A smaller model is quicker to plan.
   await page.getByLabel("Scale to height").fill("10");
   await settled(page);
-  // Its format has one thickness for all layers, unlike an adaptive plan.
+  // Its format has one thickness for all layers, so they are uniform; an adaptive plan is possible, but has no file.
+  const given = page.getByText(/takes one thickness for all layers, so they are uniform: \d+ instead of \d+\./);
+  await given.waitFor();
+  await page.getByText("Adaptive", { exact: true }).click();
+  await settled(page);
+  expect(await given.count()).toBe(0);
   await page.getByRole("button", { name: /Download print file/ }).click();
   await state(page, "error");
   await problem.getByRole("button", { name: /^Uniform layers of 0\.\d+ mm \(\d+ layers\)$/ }).click();

@@ -16,6 +16,7 @@ import { copiesStyles } from "../element/styles/copies-styles.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
 import { CuspLayerSlider } from "./layer-slider.js";
+import { isOf, oneThickness, type Replaced } from "./one-thickness.js";
 import { WIDE_PX, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { workbenchStyles } from "./styles.js";
 import { template } from "./template.js";
@@ -29,6 +30,8 @@ export class CuspWorkbench extends SlicerElement {
   #answer: AnswerPanel = "quality";
   #sheet: Sheet | null = null;
   #plot: PlotPlace | null = null;
+  /** The last plan that gave way to uniform layers. */
+  #replaced: Replaced | null = null;
   readonly #resized = new ResizeObserver(() => {
     const isWide = this.clientWidth >= WIDE_PX;
     if (isWide !== this.#isWide) this.#set(() => (this.#isWide = isWide));
@@ -37,6 +40,15 @@ export class CuspWorkbench extends SlicerElement {
   constructor() {
     super();
     define("cusp-layer-slider", CuspLayerSlider);
+    this.addEventListener("cusp-plan", () => {
+      const { settings } = this.session;
+      // Once for a printer: after an undo, adaptive layers stay.
+      if (this.#replaced !== null && isOf(this.#replaced, settings)) return;
+      const found = oneThickness(this.session);
+      if (found === null) return;
+      this.#replaced = found.replaced;
+      this.session.change(found.change);
+    });
     this.addEventListener("keydown", (event) => {
       if (event.key !== "Escape") return;
       if (!this.#isWide && this.#sheet !== null) this.#open(null);
@@ -62,6 +74,7 @@ export class CuspWorkbench extends SlicerElement {
       answer: this.#answer,
       sheet: this.#sheet,
       plot: this.#plot,
+      replaced: this.#replaced,
       go: (step, from) => void this.#go(step, from),
       answers: (name) => this.#set(() => (this.#answer = name)),
       open: (sheet) => this.#open(sheet),

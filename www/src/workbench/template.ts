@@ -25,6 +25,7 @@ import { progressBar } from "../element/parts/progress.js";
 import { MODEL_FILES } from "../element/state/choice.js";
 import type { Result } from "../element/state/result.js";
 import { path, stepPanel } from "./path.js";
+import { isOf, type Replaced } from "./one-thickness.js";
 import { ANSWERS, isStep, needsModel, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts.js";
@@ -39,6 +40,8 @@ export interface Bench {
   /** The sheet over the view of a narrow screen; null if none is open. */
   sheet: Sheet | null;
   plot: PlotPlace | null;
+  /** The last plan that gave way to uniform layers; null if none did. */
+  replaced: Replaced | null;
   /** Goes to a step, from the foot of a neighbouring one or from the row of all. */
   go(step: Step, from: "foot" | "row"): void;
   answers(name: AnswerPanel): void;
@@ -160,13 +163,14 @@ function modelSection(facts: Facts, below: TemplateResult | typeof nothing = not
   return modelCard(session, language, actions, nothing, html`${platePanel(facts)} ${below}`);
 }
 
-function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
+function answersSide(facts: Facts, bench: Bench): TemplateResult {
+  const { answer, answers } = bench;
   const { session, language } = facts;
   const { texts } = language;
   const words = workbenchWords(language);
   if (session.model === null) return html`<div class="side answers"><slot name="empty"></slot></div>`;
   return html`<div class="side answers">
-    <section class="card plan" part="plan" aria-label=${texts.plan.region}>${plan(facts)}</section>
+    <section class="card plan" part="plan" aria-label=${texts.plan.region}>${plan(facts, bench)}</section>
     <section class="card tabbed" part="quality">
       <div class="tab-row">${tabs(words.answers, ANSWERS, answer, namesOf(facts), "answer", answers)}</div>
       <div class="panel" id="answer" tabindex="0" role="tabpanel" aria-labelledby="tab-${answer}">
@@ -181,7 +185,7 @@ function answersSide(facts: Facts, { answer, answers }: Bench): TemplateResult {
 }
 
 /** The result: its figures, file, notes, and details of the computation. */
-function plan(facts: Facts): TemplateResult {
+function plan(facts: Facts, { replaced }: Bench): TemplateResult {
   const { session, language, saveTowers } = facts;
   const { result } = session;
   if (result === null) return noPlan(facts);
@@ -189,9 +193,18 @@ function plan(facts: Facts): TemplateResult {
     <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
       ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${exposure(facts, result)}
     </div>
-    ${downloadButton(facts)} ${fileLine(facts, result)} ${warnings(session, language, saveTowers)} ${comparison(result, language)}
+    ${downloadButton(facts)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warnings(session, language, saveTowers)}
+    ${comparison(result, language)}
     ${details(result, language)}
   `;
+}
+
+/** What uniform layers cost in place of adaptive ones that the printer does not take. */
+function givenWay({ session: { settings }, language }: Facts, { report: { layers } }: Result, replaced: Replaced | null): TemplateResult | typeof nothing {
+  if (replaced === null || settings.planner !== "uniform" || !isOf(replaced, settings)) return nothing;
+  const { count } = language.format;
+  const said = { taker: replaced.taker, uniform: count(layers), adaptive: count(replaced.layers) };
+  return html`<div class="warning"><p>${workbenchWords(language).oneThickness(said)}</p></div>`;
 }
 
 /** Placeholder of the result: the same rows without figures, so that the layout does not shift. */
@@ -262,7 +275,7 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
     </div>
     ${isOfPath
       ? stepPanel(facts, sheet, (step) => bench.go(step, "foot"), () => open(null), sheet === "turn" ? prepareButton(facts, bench) : nothing)
-      : html`<div class="panel">${sheetPanel(facts, sheet)}</div>`}
+      : html`<div class="panel">${sheetPanel(facts, bench, sheet)}</div>`}
   </section>`;
 }
 
@@ -272,9 +285,9 @@ function namesOf({ language }: Facts): Readonly<Record<Exclude<Sheet, Step>, str
   return { profile: texts.chart.region, quality: texts.quality.title, layers: mask, plan: result };
 }
 
-function sheetPanel(facts: Facts, sheet: Exclude<Sheet, Step>): TemplateResult | typeof nothing {
+function sheetPanel(facts: Facts, bench: Bench, sheet: Exclude<Sheet, Step>): TemplateResult | typeof nothing {
   const { session } = facts;
-  if (sheet === "plan") return html`${modelSection(facts)}${plan(facts)}`;
+  if (sheet === "plan") return html`${modelSection(facts)}${plan(facts, bench)}`;
   if (session.result === null) return html`<p class="quiet">${facts.language.texts.chart.none}</p>`;
   if (sheet === "profile") return chartPanel(facts, () => undefined);
   return sheet === "quality" ? quality(facts, session.result) : maskPanel(facts, session.result);

@@ -14,6 +14,8 @@ export const workbenchWords = room("workbench", {
   layer: "Layer in the view",
   /** Exposure of a layer of this thickness. */
   exposure: "{seconds} of light for {thickness}",
+  /** Shown if uniform layers were chosen for a printer that takes no others. */
+  oneThickness: "{taker} takes one thickness for all layers, so they are uniform: {uniform} instead of {adaptive}.",
   /** Label of the row of steps. */
   path: "Steps",
   steps: { turn: "Orient", check: "Check", hollow: "Hollow", support: "Support", slice: "Slice" },

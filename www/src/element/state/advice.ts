@@ -16,10 +16,11 @@ export function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Setti
   return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
 }
 
-export function bestUniform({ layer_mm, layers }: UniformLayers, { texts, format }: Language): Offer {
-  // Removes the rounding error of a sum of bins.
-  const uniform = String(Number(layer_mm.toFixed(6)));
-  return { label: texts.offers.bestUniform({ thickness: format.fine(layer_mm), layers }), change: { planner: "uniform", uniform } };
+/** Settings of uniform layers, without the rounding error of a sum of bins. */
+export const uniformOf = ({ layer_mm }: UniformLayers): Partial<Settings> => ({ planner: "uniform", uniform: String(Number(layer_mm.toFixed(6))) });
+
+export function bestUniform(best: UniformLayers, { texts, format }: Language): Offer {
+  return { label: texts.offers.bestUniform({ thickness: format.fine(best.layer_mm), layers: best.layers }), change: uniformOf(best) };
 }
 
 /** A warning as a sentence, with offers. */
