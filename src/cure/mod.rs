@@ -15,8 +15,8 @@ use crate::resin::{PrintThrough, Resin, exp, ln};
 /// Distance over which a dose fades to nothing, in penetration depths: to 6e-6, which moves a bottom by a nanometre.
 const FAR: f64 = 12.0;
 
-/// Maximum number of tops for which the bottom of a layer is computed in advance.
-const KNOWN_TOPS: usize = 256;
+/// Maximum number of tops in the table of bottoms, for each first layer.
+const TABULATED_TOPS: usize = 256;
 
 /// Doses that the layers of a plan leave below them. A dose is a multiple of the critical one, from which on resin is solid.
 #[derive(Debug, Clone, PartialEq)]
@@ -26,7 +26,7 @@ pub struct Cure {
     own: Vec<f64>,
     /// Dose at each boundary of all layers above it.
     above: Vec<f64>,
-    /// White ranges below which no light matters, by their first layer.
+    /// White ranges without light from above, by their first layer.
     columns: Vec<Columns>,
     /// Cured bottoms of those that end near.
     near_mm: Vec<f64>,
@@ -113,12 +113,12 @@ impl Cure {
             cure.own[layer] = exposures_s[layer] / reference_s * reference * fade;
             cure.above[layer] = cure.own[layer] + fade * cure.above[layer + 1];
         }
-        cure.know_columns();
+        cure.tabulate_bottoms();
         cure
     }
 
-    /// Computes the bottoms of white ranges below which no light matters.
-    fn know_columns(&mut self) {
+    /// Computes the bottoms of white ranges without light from above.
+    fn tabulate_bottoms(&mut self) {
         let layers = self.own.len();
         let mut far_end = 0;
         for first in 0..layers {
@@ -130,7 +130,7 @@ impl Cure {
                 self.solid_to_mm(range, self.dose(range, None))
             };
             let near = self.near_mm.len();
-            let near_ends = first + 1..far_end.min(first + 1 + KNOWN_TOPS);
+            let near_ends = first + 1..far_end.min(first + 1 + TABULATED_TOPS);
             let near_mm: Vec<f64> = near_ends.map(bottom_mm).collect();
             self.columns.push(Columns {
                 far_end,
@@ -168,22 +168,22 @@ impl Cure {
     /// Cured bottom of a range that is lit from above by `light`.
     #[inline]
     pub fn bottom_mm(&self, range: LitRange, light: Option<Light>) -> f64 {
-        let is_known = range.brightness == 1.0 && light.is_none();
-        let known_mm = is_known.then(|| self.known_mm(range.first, range.end));
-        known_mm
+        let is_tabulated = range.brightness == 1.0 && light.is_none();
+        let tabulated_mm = is_tabulated.then(|| self.tabulated_mm(range.first, range.end));
+        tabulated_mm
             .flatten()
             .unwrap_or_else(|| self.computed_mm(range, light))
     }
 
-    /// The same of a white range below which no light matters. `None` if it was not computed in advance.
+    /// Cured bottom of a white range without light from above. `None` if the table has none.
     #[inline]
-    fn known_mm(&self, first: usize, end: usize) -> Option<f64> {
+    fn tabulated_mm(&self, first: usize, end: usize) -> Option<f64> {
         let columns = &self.columns[first];
         if end >= columns.far_end {
             return Some(columns.far_mm);
         }
         let above = end - first - 1;
-        (above < KNOWN_TOPS).then(|| self.near_mm[columns.near + above])
+        (above < TABULATED_TOPS).then(|| self.near_mm[columns.near + above])
     }
 
     #[inline(never)]
@@ -285,11 +285,10 @@ impl Cure {
             return Vec::new();
         };
         let exposures_s = resin.exposures_s(&plan.thickness_mm());
-        let ends = [(-0.02, 0.5), (0.02, 1.0)];
-        let cases = [0.8, 1.2].map(|part| ends.map(|(by_mm, retained)| (part, by_mm, retained)));
-        let cures = cases.as_flattened().iter();
-        cures
-            .map(|&(part, by_mm, retained)| {
+        let parts = [0.8, 1.2].into_iter();
+        parts
+            .flat_map(|part| [(part, -0.02, 0.5), (part, 0.02, 1.0)])
+            .map(|(part, by_mm, retained)| {
                 let print_through = PrintThrough {
                     overcure_mm: nominal.overcure_mm + by_mm,
                     retained,

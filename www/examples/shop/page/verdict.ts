@@ -34,14 +34,12 @@ const FAILED = "This could not be checked here. Please change a choice, or load 
 
 /** One sentence for each kind of finding that is more than a note, with refused kinds first. */
 export function reasons({ counts, findings }: Pick<ModelPrintability, "counts" | "findings">): { code: Code; severity: Severity; text: string }[] {
-  const has = (code: Code, severity: Severity): boolean => findings.some((it) => it.code === code && it.severity === severity);
-  const severityOf = (code: Code): Severity => (has(code, "reject") ? "reject" : "review");
-  const matter = counts.filter(({ code }) => has(code, "reject") || has(code, "review"));
-  const said = matter.map(({ code, found }) => ({
-    code,
-    severity: severityOf(code),
-    text: found === 1 ? SENTENCES[code] : `${SENTENCES[code]} (${number(found)} places)`,
-  }));
+  const said = counts.flatMap(({ code, found }) => {
+    // The findings of a kind come from the most severe down.
+    const severity = findings.find((it) => it.code === code)?.severity;
+    if (severity !== "review" && severity !== "reject") return [];
+    return [{ code, severity, text: found === 1 ? SENTENCES[code] : `${SENTENCES[code]} (${number(found)} places)` }];
+  });
   return said.toSorted((a, b) => Number(b.severity === "reject") - Number(a.severity === "reject"));
 }
 

@@ -187,9 +187,11 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   };
 }
 
-/** The largest severity of a kind of findings. */
-const severityOf = (kind: Count["code"], findings: readonly Finding[]): Shown =>
-  SEVERITIES.findLast((severity) => findings.some((it) => it.code === kind && it.severity === severity)) ?? "note";
+/** The largest severity of a kind: that of its first finding, since they come from the most severe down. */
+function severityOf(kind: Count["code"], findings: readonly Finding[]): Shown {
+  const severity = findings.find(({ code }) => code === kind)?.severity ?? "note";
+  return severity === "ignore" ? "note" : severity;
+}
 
 function sign(of: keyof typeof SIGNS): TemplateResult {
   return html`<svg class=${of} viewBox="0 0 20 20" aria-hidden="true"><path d=${SIGNS[of]} /></svg>`;

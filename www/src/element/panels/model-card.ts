@@ -93,7 +93,7 @@ export function modelCard(
   if (model === null) return html``;
   const { name, info } = model;
   const own = info.size_mm;
-  // As it stands, without supports.
+  // The extent in the current pose, without supports.
   const size = result?.own?.size_mm ?? own;
   const isOfFile = size.every((mm, axis) => Math.abs(mm - (own[axis] ?? 0)) <= 1e-3 * mm);
   return html`<section class="card model" part="model" aria-label=${texts.model.region}>

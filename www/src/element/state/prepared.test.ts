@@ -11,7 +11,7 @@ test("a small model is turned and supported, a large one hollowed as well", () =
   expect(prepared(DEFAULT_SETTINGS, candidate, 100)).toEqual({ rotation, supports: "medium", wall: "2" });
 });
 
-test("a choice of supports, walls and height stays", () => {
+test("a choice of supports, walls and scale stays", () => {
   const chosen = { ...DEFAULT_SETTINGS, supports: "light", wall: "3", height: "20" } as const;
   expect(prepared(chosen, candidate, 100)).toEqual({ rotation, height: "30" });
 });

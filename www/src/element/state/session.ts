@@ -161,10 +161,10 @@ export class Session extends Models {
     this.change({ rotation: text }, text === "" ? "turn back" : "turn");
   }
 
-  /** Applies the pose of a candidate of {@link orientation}. */
-  orient(candidate: Candidate): void {
+  /** Applies a candidate of {@link orientation}: its pose, or a change that contains it. */
+  orient(candidate: Candidate, change = withPose(this.settings, candidate)): void {
     this.#preview.stop();
-    this.change(withPose(this.settings, candidate));
+    this.change(change);
     if (this.options !== null) this.orientation.applied(this.options);
     this.host.oriented?.(candidate);
   }
@@ -176,10 +176,7 @@ export class Session extends Models {
     if (!orientation.isCurrent || orientation.best.length === 0) await orientation.start();
     const [best] = orientation.best;
     if (best === undefined || this.model !== model) return false;
-    this.#preview.stop();
-    this.change(prepared(this.settings, best, this.result?.own?.resin_ml ?? 0));
-    if (this.options !== null) orientation.applied(this.options);
-    this.host.oriented?.(best);
+    this.orient(best, prepared(this.settings, best, this.result?.own?.resin_ml ?? 0));
     return true;
   }
 
