@@ -16,8 +16,9 @@ import {
 } from "./bound-panels.js";
 import { findingsPanel } from "./bound-findings.js";
 import { platePanel } from "./bound-plate.js";
+import { warningsPanel } from "./bound-warnings.js";
 import type { Facts } from "./facts.js";
-import { modelCard, uniformOffer, warnings } from "./panels/model-card.js";
+import { modelCard, uniformOffer } from "./panels/model-card.js";
 import { priceRow } from "./panels/price-row.js";
 import { hasPlace } from "./panels/settings-form.js";
 import { comparison, details, figures } from "./panels/summary.js";
@@ -94,11 +95,11 @@ function work(drawn: Drawn): TemplateResult {
 
 /** The open model, with the list of all models. */
 function modelsCard(drawn: Drawn): TemplateResult | typeof nothing {
-  const { session, language, panels, picked, saveTowers } = drawn;
+  const { session, language, panels, picked } = drawn;
   const list = panels.has("plate") ? platePanel(drawn) : nothing;
   if (!panels.has("model")) return list === nothing ? nothing : html`<section class="card model" part="model">${list}</section>`;
   const actions = { picked, openFile: (place: number) => void session.openFile(place) };
-  return modelCard(session, language, actions, warnings(session, language, saveTowers), list);
+  return modelCard(session, language, actions, warningsPanel(drawn), list);
 }
 
 function settingsCard(drawn: Drawn): TemplateResult {
@@ -128,7 +129,7 @@ function viewCard(drawn: Drawn): TemplateResult {
 }
 
 function results(drawn: Drawn, result: Result): TemplateResult {
-  const { session, language, panels, saveTowers } = drawn;
+  const { session, language, panels } = drawn;
   const { texts } = language;
   return html`
     ${panels.has("plan")
@@ -138,7 +139,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${priceRow(session.pricing.price, language)} ${downloadButton(drawn)} ${fileLine(drawn, result)}
           </div>
           ${comparison(result, language)}
-          ${panels.has("model") ? nothing : warnings(session, language, saveTowers)} ${details(result, language)}
+          ${panels.has("model") ? nothing : warningsPanel(drawn)} ${details(result, language)}
         </section>`
       : nothing}
     ${panels.has("view") ? viewCard(drawn) : nothing}

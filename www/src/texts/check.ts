@@ -11,6 +11,7 @@ import "./orientation.js";
 import "./painting.js";
 import "./placing.js";
 import "./problems.js";
+import "./warnings.js";
 
 export { LANGUAGES } from "./index.js";
 

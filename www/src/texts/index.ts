@@ -10,12 +10,11 @@ import { plan } from "./plan.js";
 import { plate } from "./plate.js";
 import { settings } from "./settings.js";
 import { view } from "./view.js";
-import { warningNouns, warnings } from "./warnings.js";
 
 export type { Format } from "./format.js";
 
 /** English of the element, except for what is fetched with its panel. */
-const ELEMENT = { format: FORMAT_WORDS, ...model, ...settings, ...plan, ...plate, ...view, offers, warnings, nouns: warningNouns } as const;
+const ELEMENT = { format: FORMAT_WORDS, ...model, ...settings, ...plan, ...plate, ...view, offers } as const;
 
 const elementTexts = room("", ELEMENT);
 

@@ -4,6 +4,7 @@ import type { Metric } from "../api/wire.js";
 import { sayer } from "./codes.js";
 import { errorCases, errorNames, errors } from "./errors.js";
 import { room, type Spoken } from "./messages.js";
+import "./nouns.js";
 
 export const problemTexts = room("", {
   /** A heading for each kind of failure; the sentence below it is that of the failure's code. */

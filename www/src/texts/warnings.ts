@@ -1,8 +1,8 @@
 /** Sentences of warnings, as in the command line. */
 import type { WarningCode, WarningDetails } from "../api/warning.js";
-import type { GpuFault, PartKind } from "../api/wire.js";
 import { sayer, type Cases, type Sentences } from "./codes.js";
-import { say, type Spoken } from "./messages.js";
+import { room, say, type Spoken } from "./messages.js";
+import "./nouns.js";
 
 export const warnings = {
   "degenerate-facets": "{facets|one:# facet|other:# facets} without area left out.",
@@ -51,24 +51,7 @@ export const warnings = {
   },
 } as const satisfies Sentences<WarningCode>;
 
-/** Nouns in the sentences of warnings, and of errors. */
-export const warningNouns = {
-  gpuFaults: {
-    error: "the system reports an error",
-    "device-lost": "the device was lost",
-    "too-many-hits": "the model has more surface points than its buffers hold",
-    "bad-offsets": "it returned offsets that do not add up",
-    "out-of-memory": "there was not enough memory",
-  },
-  partKinds: {
-    negative: "negative part",
-    modifier: "modifier",
-    "support-blocker": "support blocker",
-    "support-enforcer": "support enforcer",
-  },
-  /** A size of the model for another unit of its file, within a sentence. */
-  reading: "in {unit|settings.units} it would be {size_mm|mm}; ",
-} as const satisfies { gpuFaults: Record<GpuFault, string>; partKinds: Record<PartKind, string>; reading: string };
+room("warnings", warnings);
 
 const cases: Cases<typeof warnings, WarningDetails> = {
   "own-supports": ({ replaced }) => (replaced ? "replaced" : "kept"),

@@ -1,5 +1,5 @@
 /** Uniform layers in the place of adaptive ones, for printers and files that take one thickness for all layers. */
-import { uniformOf } from "../element/state/advice.js";
+import { uniformOf } from "../element/state/offers.js";
 import type { Session } from "../element/state/session.js";
 import type { Settings } from "../element/state/settings.js";
 

@@ -15,8 +15,9 @@ import {
 } from "../element/bound-panels.js";
 import { isFilament } from "../api/facts.js";
 import { platePanel } from "../element/bound-plate.js";
+import { warningsPanel } from "../element/bound-warnings.js";
 import type { Facts } from "../element/facts.js";
-import { modelCard, uniformOffer, warnings } from "../element/panels/model-card.js";
+import { modelCard, uniformOffer } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
 import { comparison, details, figures } from "../element/panels/summary.js";
 import { layersPicture } from "../element/parts/layers-picture.js";
@@ -186,14 +187,14 @@ function answersSide(facts: Facts, bench: Bench): TemplateResult {
 
 /** The result: its figures, file, notes, and details of the computation. */
 function plan(facts: Facts, { replaced }: Bench): TemplateResult {
-  const { session, language, saveTowers } = facts;
+  const { session, language } = facts;
   const { result } = session;
   if (result === null) return noPlan(facts);
   return html`
     <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
       ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${exposure(facts, result)}
     </div>
-    ${downloadButton(facts)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warnings(session, language, saveTowers)}
+    ${downloadButton(facts)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warningsPanel(facts)}
     ${comparison(result, language)}
     ${details(result, language)}
   `;
@@ -209,7 +210,7 @@ function givenWay({ session: { settings }, language }: Facts, { report: { layers
 
 /** Placeholder of the result: the same rows without figures, so that the layout does not shift. */
 function noPlan(facts: Facts): TemplateResult {
-  const { session, language, saveTowers } = facts;
+  const { session, language } = facts;
   const { texts } = language;
   return html`
     <p class="count" aria-hidden="true">–</p>
@@ -217,7 +218,7 @@ function noPlan(facts: Facts): TemplateResult {
     ${session.busy === null && session.canPlan
       ? html`<button class="primary" @click=${() => session.replan()}>${texts.plan.make}</button>`
       : nothing}
-    ${warnings(session, language, saveTowers)}
+    ${warningsPanel(facts)}
   `;
 }
 

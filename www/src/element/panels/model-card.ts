@@ -1,11 +1,8 @@
 import { css, html, nothing, type TemplateResult } from "lit";
-import type { PlateChoice, Warning } from "../../api/wire.js";
-import { shown } from "../../api/visible.js";
 import type { Language } from "../../texts/index.js";
 import { offerButtons } from "../parts/problem-box.js";
-import { towersOffer } from "../parts/towers-offer.js";
 import { MODEL_FILES } from "../state/choice.js";
-import { adviseOn, allowed, bestUniform } from "../state/advice.js";
+import { allowed, bestUniform } from "../state/offers.js";
 import { enough } from "../state/comparison.js";
 import type { Session } from "../state/session.js";
 
@@ -30,44 +27,6 @@ export const modelStyles = css`
 export interface ModelActions {
   picked(event: Event): void;
   openFile(place: number): void;
-}
-
-/** Warnings about the models and the plan, with offers. With several models, each warning names its model. */
-export function warnings(session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
-  const { model, result, fixed, settings, plate: { entries } } = session;
-  // Once a unit or a height is chosen, the size is intended.
-  const isSized = settings.unit !== "" || settings.height.trim() !== "";
-  const asked = (all: readonly Warning[]): Warning[] => all.filter(({ code }) => code !== "odd-size" || !isSized);
-  const planned = result?.report.models ?? [];
-  const all = entries.map(({ model: { name, info } }, place) => ({
-    name: entries.length > 1 ? shown(name) : null,
-    warnings: asked([...info.warnings, ...planned.flatMap((of) => (of.model === place ? of.warnings : []))]),
-  }));
-  return adviseOn([...all, { name: null, warnings: asked(result?.report.warnings ?? []) }], language, fixed).map(
-    ({ text, offers, towers, plates, names }) => html`<div class="warning">
-      <p>${names.size > 0 ? html`<b>${language.format.all([...names])}</b>: ` : nothing}${text}</p>
-      ${plates === null || (names.size > 0 && !names.has(shown(model?.name ?? ""))) ? nothing : plateList(session, plates, text, language)}
-      ${offerButtons(offers, (change) => session.change(change))}
-      ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
-    </div>`,
-  );
-}
-
-/** List of the plates of a project, to read another one. */
-function plateList(session: Session, { plate_number, plates }: PlateChoice, label: string, { texts, format }: Language): TemplateResult {
-  const numbers = Array.from({ length: plates }, (_, index) => index + 1);
-  const chosen = ({ target }: Event): void => {
-    const list = target as HTMLSelectElement;
-    const number = Number(list.value);
-    // This plate stays open until the other is read.
-    list.value = String(plate_number);
-    void session.reread({ ...session.model?.reading, plate_number: number });
-  };
-  return html`<select aria-label=${label} @change=${chosen}>
-    ${numbers.map(
-      (number) => html`<option value=${number} .selected=${number === plate_number}>${texts.plate.plate({ number: format.count(number), count: format.count(plates) })}</option>`,
-    )}
-  </select>`;
 }
 
 /** Button for uniform layers, shown if they do about as well as the plan. */

@@ -1,7 +1,7 @@
 /** The box for a failure: its explanation, and the buttons of its offers. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import type { Language } from "../../texts/index.js";
-import type { Offer } from "../state/advice.js";
+import type { Offer } from "../state/offers.js";
 import type { Problem } from "../state/problem.js";
 import type { Settings } from "../state/settings.js";
 

@@ -1,27 +1,10 @@
 /** Warnings as sentences, with offers. */
-import type { ModelUnit, PlateChoice, UniformLayers, Warning } from "../../api/wire.js";
+import type { ModelUnit, PlateChoice, Warning } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { warningOf } from "../../texts/warnings.js";
 import { FORMATS } from "../../api/facts.js";
+import { allowed, bestUniform, type Offer } from "./offers.js";
 import type { Settings } from "./settings.js";
-
-/** A change of settings that may fix a problem, offered as a button. */
-export interface Offer {
-  label: string;
-  change: Partial<Settings>;
-}
-
-/** Offers that change no fixed setting. */
-export function allowed(offers: readonly Offer[], fixed: ReadonlySet<keyof Settings>): Offer[] {
-  return offers.filter(({ change }) => (Object.keys(change) as (keyof Settings)[]).every((key) => !fixed.has(key)));
-}
-
-/** Settings of uniform layers, without the rounding error of a sum of bins. */
-export const uniformOf = ({ layer_mm }: UniformLayers): Partial<Settings> => ({ planner: "uniform", uniform: String(Number(layer_mm.toFixed(6))) });
-
-export function bestUniform(best: UniformLayers, { texts, format }: Language): Offer {
-  return { label: texts.offers.bestUniform({ thickness: format.fine(best.layer_mm), layers: best.layers }), change: uniformOf(best) };
-}
 
 /** A warning as a sentence, with offers. */
 export interface Advice {

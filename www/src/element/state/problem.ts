@@ -4,7 +4,7 @@ import type { Language } from "../../texts/index.js";
 import { filled } from "../../texts/messages.js";
 import { errorOf, problemTexts } from "../../texts/problems.js";
 import type { Busy } from "../parts/progress.js";
-import { allowed, bestUniform, type Offer } from "./advice.js";
+import { allowed, bestUniform, type Offer } from "./offers.js";
 import { METRICS } from "./metric.js";
 import * as round from "./round.js";
 import { parse, withTolerance, type Field, type Settings } from "./settings.js";
