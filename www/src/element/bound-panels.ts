@@ -19,6 +19,7 @@ import { fileWords } from "./parts/file-words.js";
 import { stepButtons } from "./parts/icon-button.js";
 import { sentence } from "./state/comparison.js";
 import type { Aims } from "./state/orientation.js";
+import { USUAL_VOLUME } from "./state/plate.js";
 import { printerOf } from "./state/printer.js";
 import type { Entry } from "./state/plate.js";
 import type { Problem } from "./state/problem.js";
@@ -71,7 +72,7 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     @cusp-walls=${() => (session.checks.showsWalls = false)}
     .rotation=${turning ?? rotationOf(settings.rotation)}
     .scaled=${scaledOf(session)}
-    .printer=${printerOf(settings.printer, session.printers)}
+    .printer=${printerOf(settings.printer, session.printers) ?? (session.plate.isSeveral ? USUAL_VOLUME : null)}
     .copies=${session.plate.copies}
     .colliding=${session.plate.colliding}
     .shapes=${session.plate}

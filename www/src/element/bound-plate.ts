@@ -3,6 +3,7 @@ import { html, nothing, type TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
 import { MODEL_FILES } from "./state/choice.js";
 import { FetchedPanel } from "./parts/part.js";
+import { USUAL_VOLUME } from "./state/plate.js";
 import { copiesField } from "./panels/copies-field.js";
 
 const plateCode = new FetchedPanel("plate", () => import("./panels/plate-panel.js"), ({ definePlate }) => definePlate());
@@ -25,10 +26,13 @@ export function platePanel(facts: Facts): TemplateResult | typeof nothing {
     </div>`;
   }
   if (!plateCode.isThere) return plateCode.instead(element, language);
+  const { texts, format } = language;
+  const [x, y] = USUAL_VOLUME.volume_mm.map(format.count);
   return html`<div class="copies-row">
       ${addButton(facts)}
-      <button class="small" @click=${() => plate.arrange()}>${language.texts.plate.arrange}</button>
+      <button class="small" @click=${() => plate.arrange()}>${texts.plate.arrange}</button>
     </div>
+    ${session.settings.printer === "" ? html`<p class="quiet">${texts.plate.usual({ size: `${x} × ${y}` })}</p>` : nothing}
     <cusp-plate
     .plate=${plate}
     .entries=${plate.entries}

@@ -18,6 +18,7 @@ import type { Facts } from "./facts.js";
 import { definePanels } from "./panels/index.js";
 import { Explaining } from "./state/explaining.js";
 import type { Result } from "./state/result.js";
+import type { Snapshot } from "./state/snapshot.js";
 import { saveFile, saveMade } from "./parts/save-file.js";
 import { thumbnailOf } from "./parts/thumbnail.js";
 import { SettableElement } from "./settable-element.js";
@@ -59,7 +60,7 @@ export abstract class SlicerElement extends SettableElement {
     this.dragging = false;
     watchGestures(this, {
       dragging: (isOver) => (this.dragging = isOver),
-      open: (files) => void this.#choose(files),
+      open: (files) => void this.take(files),
       refuse: (error, name) => this.refuse(error, name),
       cancel: () => this.cancel(),
       undo: () => this.undo(),
@@ -253,6 +254,22 @@ export abstract class SlicerElement extends SettableElement {
   handwork(): Handwork {
     const { plate: { entries }, settings: { points, drains } } = this.session;
     return { isPainted: entries.some(({ weights }) => weights !== null), points, drains, models: entries.length };
+  }
+
+  /** @internal Adds the models of a drop to the open ones; opens them if none is open or if only one can be. */
+  async take(files: readonly File[]): Promise<void> {
+    await (this.#hasPlate && this.model !== null ? this.session.add(files) : this.#choose(files));
+  }
+
+  /** @internal Work that {@link reopen} goes on with, and the number of its set of models; null without a model. */
+  work(): { job: number; snapshot: Snapshot } | null {
+    const { snapshot, plate } = this.session;
+    return snapshot === null ? null : { job: plate.state.job, snapshot };
+  }
+
+  /** @internal Goes on with earlier work; null if this failed or was cancelled. */
+  reopen(snapshot: Snapshot): Promise<Model | null> {
+    return this.session.reopen(snapshot);
   }
 
   /** @internal Shows the reason for which a drop or file cannot be opened. */

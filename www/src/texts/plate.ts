@@ -9,6 +9,8 @@ export const plate = {
     more: "One more",
     arrange: "Arrange",
     title: "Models on the plate",
+    /** Shown without a printer. */
+    usual: "The plate is taken to be {size}\u00a0mm; choose your printer for its own.",
     remove: "Remove {name}",
     spacing: "Spacing (mm)",
     /** Label of the choice of turns about z. */

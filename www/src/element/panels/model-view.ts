@@ -74,7 +74,7 @@ const PROPERTIES = {
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** Height of the scaled model, and the pose in which it has that height; null for the file's own size. */
   scaled: given<Scaled | null>(null, (a: unknown, b: unknown) => JSON.stringify(a) !== JSON.stringify(b)),
-  printer: given<Printer | null>(null),
+  printer: given<Pick<Printer, "volume_mm"> | null>(null),
   /** Copies on the plate shown; empty for a single model. */
   copies: given<readonly Copy[]>([]),
   /** Indices of copies that overlap others or extend beyond the plate. */

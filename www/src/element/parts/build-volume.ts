@@ -2,10 +2,10 @@
 import type { Printer } from "../../api/wire.js";
 import type { BuildVolume } from "../../view/scene/plate.js";
 
-const volumes = new WeakMap<Printer, BuildVolume>();
+const volumes = new WeakMap<object, BuildVolume>();
 
 /** The build volume of a printer, cached per printer, since a new object would count as a change. */
-export function volumeOf(printer: Printer | null): BuildVolume | null {
+export function volumeOf(printer: Pick<Printer, "volume_mm"> | null): BuildVolume | null {
   if (printer === null) return null;
   let volume = volumes.get(printer);
   if (volume === undefined) {

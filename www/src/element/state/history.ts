@@ -41,11 +41,4 @@ export class History<T> {
     this.#last = null;
     return after;
   }
-
-  /** Forgets the steps whose values are the same by `isSame`, and those undone. */
-  forget(isSame: (before: T, after: T) => boolean, now: T): void {
-    this.#past = this.#past.filter((value, place) => !isSame(value, this.#past[place + 1] ?? now));
-    this.#future = [];
-    this.#last = null;
-  }
 }

@@ -6,13 +6,14 @@ import type { Options, ReadOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
 import { choose, weightsName } from "./choice.js";
 import type { Download, Host, SlicerCalls } from "./host.js";
-import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Pose, type Posed } from "./plate.js";
+import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Posed } from "./plate.js";
 import { Preferences } from "./preferences.js";
 import { readPrinter } from "./printer.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
 import { aboutSelected, type ModelCalls } from "./selected.js";
-import { check, withoutPlaced, type Settings } from "./settings.js";
+import { check, fromAddress, toAddress, withoutPlaced, type Settings } from "./settings.js";
+import type { Pose, Snapshot } from "./snapshot.js";
 
 /** Codes with which the core refuses a printer's description. */
 const OF_PRINTER: ReadonlySet<string> = new Set(["bad-options", "bad-printer"]);
@@ -27,9 +28,8 @@ export abstract class Models extends Preferences {
   weights: Float32Array | null = null;
   /** Corners of the open model's facets for a view; null if not read together with it. */
   positions: Float32Array | null = null;
-  /** Files opened together, and the index of the open one. */
+  /** Files opened together. */
   files: readonly File[] = [];
-  place = 0;
   /** All models, of which {@link model} is the selected one. */
   readonly plate: Plate;
   /** Calls of the slicer about the selected model. */
@@ -83,20 +83,23 @@ export abstract class Models extends Preferences {
   /** Opens the first model of a drop or a file dialog and keeps the others; null if this failed or was cancelled. */
   async choose(files: readonly File[]): Promise<Model | null> {
     if (files.length === 0) return null;
-    const { files: before, place } = this;
+    const { files: before } = this;
     this.files = choose(files);
     const model = await this.openFile(0);
     // If the file cannot be opened, the previous files stay.
-    if (model === null) [this.files, this.place] = [before, place];
+    if (model === null) this.files = before;
     return model;
+  }
+
+  /** Index of the open one of {@link files}. */
+  get place(): number {
+    return Math.max(0, this.files.findIndex((file) => file === this.model?.file));
   }
 
   /** Opens another of the files opened together; null if this failed or was cancelled. */
   async openFile(place: number): Promise<Model | null> {
     const file = this.files[place];
-    if (file === undefined) return null;
-    this.place = place;
-    return this.#open(file, file.name);
+    return file === undefined ? null : this.#open(file, file.name);
   }
 
   /**
@@ -158,6 +161,33 @@ export abstract class Models extends Preferences {
     if (rotation !== undefined) this.preset({ rotation: pose.rotation });
     if (height_mm !== undefined) this.preset({ height: pose.height });
     if (!waits) this.replan();
+    return model;
+  }
+
+  /** Work that another session can go on with; null without a model. */
+  get snapshot(): Snapshot | null {
+    if (this.model === null) return null;
+    this.keepPose();
+    return { query: toAddress(this.settings, Infinity), ...this.plate.snapshot };
+  }
+
+  /** Goes on with the work of a snapshot, in place of the open models; null if this failed or was cancelled. */
+  async reopen(snapshot: Snapshot): Promise<Model | null> {
+    this.start();
+    this.drop();
+    this.dismiss();
+    const name = snapshot.models[0]?.name ?? "";
+    const entry = await this.run("open", name, null, (watch) => this.plate.reopen(snapshot, { ...watch, ...this.#shown() }));
+    if (entry === null) {
+      await this.resume();
+      return null;
+    }
+    const { model, weights, positions } = entry;
+    Object.assign(this, { model, weights, positions, files: [] });
+    this.left(true);
+    this.restore(fromAddress(snapshot.query));
+    for (const { model } of this.plate.entries) this.host.loaded?.(model);
+    this.replan();
     return model;
   }
 
@@ -241,7 +271,6 @@ export abstract class Models extends Preferences {
     this.weights = null;
     this.positions = positions;
     this.left(true);
-    this.forgetModels();
     this.host.loaded?.(model);
     if (!waits) this.replan();
     return model;

@@ -2,7 +2,8 @@ import { beforeEach, expect, test } from "vitest";
 import { fakeWorkers } from "../../api/fake-worker.js";
 import { createSlicer } from "../../api/index.js";
 import type { ArrangeError, JobOptions, Placement } from "../../api/wire.js";
-import { MOST_COPIES, Plate, type Added, type Entry, type Own, type Pose } from "./plate.js";
+import { MOST_COPIES, Plate, type Added, type Entry, type Own } from "./plate.js";
+import type { Pose } from "./snapshot.js";
 
 /** Calls to the fake worker, and its answers. */
 let log: string[];
@@ -64,7 +65,7 @@ test("several are planned on the plate, each in its own pose", async () => {
   await plate.add([ring], {});
   plate.setCopies(1, 3);
   await plate.plan({ tolerance: 1, height_mm: 5, rotation: [0, 0, 1, 0] }, {});
-  expect(jobs[0]?.options).toEqual({ tolerance: 1 });
+  expect(jobs[0]?.options).toEqual({ tolerance: 1, pixels: [3840, 2400], pitch_mm: 0.05 });
   expect(jobs[0]?.models).toEqual([{ copies: 1, height_mm: 5 }, { copies: 3 }]);
   expect(log).toEqual(["1: add cup", "1: add ring", "1: plan 1 of cup ring×3"]);
 });
@@ -75,7 +76,7 @@ test("each of several models has its own void and supports, with its own points"
   plate.keep({ pose: { ...POSE, points: "1,2,3,,1" } });
   await plate.add([ring], {});
   await plate.plan({ tolerance: 1, hollow: { wall_mm: 2 }, supports: { strength: "light" } }, {});
-  expect(jobs[0]?.options).toEqual({ tolerance: 1 });
+  expect(jobs[0]?.options).toEqual({ tolerance: 1, pixels: [3840, 2400], pitch_mm: 0.05 });
   expect(jobs[0]?.models).toEqual([
     { copies: 1, hollow: { wall_mm: 2 }, supports },
     { copies: 1, hollow: { wall_mm: 2 } },

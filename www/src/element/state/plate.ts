@@ -2,16 +2,14 @@
 import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import { FACTS } from "../../api/facts.js";
-import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Tradeoff } from "../../api/wire.js";
+import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Printer, Tradeoff } from "../../api/wire.js";
 import { placesOf } from "./collisions.js";
 import type { SlicerCalls } from "./host.js";
-import { DEFAULT_SETTINGS, quaternion, rotationText, type Fault, type Settings } from "./settings.js";
+import { DEFAULT_SETTINGS, quaternion, rotationText, type Fault } from "./settings.js";
 import { isEqual } from "./plain.js";
+import { poseIn, poseText, type Pose, type Snapshot } from "./snapshot.js";
 import { Sync } from "./sync.js";
 import { read } from "./typed.js";
-
-/** Settings of the selected model alone: its pose, and its points placed by hand. */
-export type Pose = Pick<Settings, "rotation" | "height" | "points" | "fill" | "drains" | "drain">;
 
 /** The corresponding options, with the voids and supports to which points and holes belong. */
 export type Own = Pick<ModelOptions, "rotation" | "height_mm" | "hollow" | "supports">;
@@ -83,6 +81,10 @@ export interface PlateHost {
   own(pose: Pose): Own | null;
 }
 
+/** Size of the plate of several copies without a printer, as of many screens of 4K; the side of its pixels. */
+export const USUAL_VOLUME: Pick<Printer, "volume_mm"> = { volume_mm: [192, 120, 245] };
+const USUAL_PIXEL_MM = 0.05;
+
 /** Maximum number of copies per model. */
 export const MOST_COPIES = 1000;
 
@@ -109,6 +111,7 @@ export class Plate {
   readonly #sync: Sync;
   #keys = 0;
   #job = 0;
+  #jobs = 0;
   /** True while a copy is being dragged. */
   #isMoving = false;
   #drags = 0;
@@ -183,12 +186,36 @@ export class Plate {
     if (isAgain) {
       this.#take(this.entries.map((it, place) => (place === this.selected ? entry : it)));
     } else {
-      this.#job++;
-      this.entries = [entry];
-      this.selected = 0;
+      this.#replace([entry], 0);
     }
     this.#forget();
     return { ...entry, positions: positions ?? null };
+  }
+
+  /** Models, copies and placements of a snapshot. */
+  get snapshot(): Omit<Snapshot, "query"> {
+    const { selected, arranging, placed } = this;
+    const models = this.entries.map(({ model: { name, file, reading }, copies, pose, weights }) => ({ name, file, reading, copies, pose: poseText(pose), weights }));
+    return { models, selected, arranging, placed };
+  }
+
+  /** Replaces all models by those of a snapshot. Returns the selected one. */
+  async reopen({ models, selected, arranging, placed }: Snapshot, call: LoadCall): Promise<Entry & { positions: Float32Array | null }> {
+    const read: (Entry & { positions: Float32Array | null })[] = [];
+    for (const { file, name, reading, copies, pose, weights } of models) {
+      const isFirst = read.length === 0;
+      const { positions, ...model } = await this.#sync.read(file, { ...call, name, reading }, isFirst);
+      const entry = { ...this.#entryOf(model, { copies }), pose: poseIn(pose), weights };
+      this.#sync.note(entry, isFirst, positions);
+      read.push({ ...entry, positions: positions ?? null });
+    }
+    const chosen = read[selected] ?? read[0];
+    if (chosen === undefined) throw new Error("a snapshot without models");
+    this.#replace(read.map(({ positions: _positions, ...entry }) => entry), read.indexOf(chosen));
+    this.arranging = arranging;
+    this.#forget();
+    this.placed = this.placements = placed;
+    return chosen;
   }
 
   /** The slicer's id of the selected model. */
@@ -286,7 +313,7 @@ export class Plate {
   restore(state: PlateState, posed: Posed): boolean {
     const { job, entries, selected, arranging, placed } = state;
     const chosen = entries[selected];
-    if (job !== this.#job || chosen === undefined) return false;
+    if (chosen === undefined) return false;
     const isSame = entries.length === this.entries.length && entries.every(({ key, copies }, i) => key === this.entries[i]?.key && copies === this.entries[i].copies);
     const isSelected = chosen.key === this.entries[this.selected]?.key;
     if (isSame && isSelected && arranging === this.arranging && placed === this.placed) return false;
@@ -295,6 +322,7 @@ export class Plate {
     // Painted weights have their own undo steps.
     const painted = new Map(this.entries.map(({ key, weights }) => [key, weights]));
     this.#take(entries.map((entry) => ({ ...entry, weights: painted.has(entry.key) ? (painted.get(entry.key) ?? null) : entry.weights })));
+    this.#job = job;
     this.selected = selected;
     this.keep(posed);
     this.arranging = arranging;
@@ -414,6 +442,14 @@ export class Plate {
     return { key: ++this.#keys, model, copies: countOf(copies) || 1, pose: poseOf(own), own, weights: null };
   }
 
+  /** Takes other models in place of all, which undo brings back. */
+  #replace(entries: readonly Entry[], selected: number): void {
+    if (this.entries.length > 0) this.#host.changing(`replace ${this.#job}`);
+    this.#job = ++this.#jobs;
+    this.entries = entries;
+    this.selected = selected;
+  }
+
   /** Replaces the models; removed ones are also removed from the slicer. */
   #take(entries: readonly Entry[]): void {
     const kept = new Set(entries.map(({ key }) => key));
@@ -455,9 +491,12 @@ export function poseOf({ rotation, height_mm }: Pick<Own, "rotation" | "height_m
   return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm), points, fill, drains, drain };
 }
 
-/** Options shared by several models: all except pose, void and supports. */
+/** Options shared by several models: all except pose, void and supports. Without a printer, the plate has a usual size. */
 function sharedOf({ rotation: _rotation, height_mm: _height, hollow: _hollow, supports: _supports, ...shared }: Options): Options {
-  return shared;
+  if (shared.printer !== undefined) return shared;
+  const { rays: _rays, ...rest } = shared;
+  const [x_mm, y_mm] = USUAL_VOLUME.volume_mm;
+  return { ...rest, pixels: [x_mm / USUAL_PIXEL_MM, y_mm / USUAL_PIXEL_MM], pitch_mm: USUAL_PIXEL_MM };
 }
 
 /** Number of copies clamped to its bounds; NaN if invalid. */

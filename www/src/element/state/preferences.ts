@@ -96,11 +96,6 @@ export abstract class Preferences implements Offered {
     if (this.canRedo) this.#go(this.#history.redo(this.#now()));
   }
 
-  /** Forgets steps that only changed models which have been removed. */
-  protected forgetModels(): void {
-    this.#history.forget((before, after) => before.settings === after.settings, this.#now());
-  }
-
   #now(): Step {
     return { settings: this.settings, plate: this.standing() };
   }

@@ -89,11 +89,11 @@ function parsed(text: string): Printer {
   }
 }
 
-/** Text of a printer in a URL; empty if its description is too long. */
-export function printerText(chosen: ChosenPrinter): string {
+/** Text of a printer in a URL; empty if its description has more than `chars` characters. */
+export function printerText(chosen: ChosenPrinter, chars = ADDRESS_CHARS): string {
   if (typeof chosen === "string") return chosen;
   const text = JSON.stringify(chosen);
-  return text.length > ADDRESS_CHARS ? "" : text;
+  return text.length > chars ? "" : text;
 }
 
 /** Parses the printer of a URL; no name begins with a brace. */

@@ -2,7 +2,7 @@ import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import type { Loaded, Plan } from "../../api/index.js";
 import { model, planOf } from "./fake-slicer.js";
-import { planned, session, settle, slicer } from "./session-fixture.js";
+import { planned, session, settle, slicer, start } from "./session-fixture.js";
 
 /** A slicer that reads every file that is added, and plans several copies at once. */
 function plates(): void {
@@ -161,20 +161,25 @@ test("a drag is one step; undone, the copy is back where it stood, by hand or ar
   expect(session.plate.entries[0]?.copies).toBe(2);
 });
 
-test("another job forgets the steps of the models before, and keeps those of the settings", async () => {
+test("a model opened in place of others is a step back to them, with their copies and settings", async () => {
   await planned(10);
   plates();
-  session.change({ tolerances: { volume: "20" } });
+  await session.add([ring]);
+  session.change({ rotation: "0,0,1,0" });
+  session.plate.setCopies(1, 2);
   await settle();
-  slicer.last.resolve(planOf(9));
-  await settle();
-  session.plate.setCopies(0, 2);
-  await settle();
+  const { job } = session.plate.state;
   await planned(12);
-  expect(session.plate.entries[0]?.copies).toBe(1);
+  expect([names(), session.settings.rotation]).toEqual([["a.stl"], ""]);
   session.undo();
-  expect([session.settings.tolerances, session.canUndo]).toEqual([{}, false]);
-  expect(session.plate.entries[0]?.copies).toBe(1);
+  await settle();
+  expect([names(), session.settings.rotation]).toEqual([["a.stl", "ring.stl"], "0,0,1,0"]);
+  expect(session.plate.entries.map(({ copies }) => copies)).toEqual([1, 2]);
+  expect(session.plate.state.job).toBe(job);
+  expect(session.result?.report.layers).toBe(33);
+  session.redo();
+  await settle();
+  expect([names(), session.settings.rotation]).toEqual([["a.stl"], ""]);
 });
 
 test("models are added with copies and a pose of their own; without an open one, the first is opened", async () => {
@@ -195,4 +200,34 @@ test("models are added with copies and a pose of their own; without an open one,
   expect(entries[1]?.pose.rotation).toBe("0,0,1,0");
   expect(session.settings.height).toBe("7");
   expect(session.canUndo).toBe(true);
+});
+
+test("another session goes on with the work: models, copies, poses, weights, placements and settings", async () => {
+  await planned(10);
+  plates();
+  await session.add([ring]);
+  session.plate.setCopies(0, 3);
+  session.change({ tolerances: { cusp: "0.03" }, supports: "medium", points: "1,2,3,,0" });
+  session.setWeights(Float32Array.of(0.5), true);
+  await select(1);
+  session.change({ height: "5" });
+  session.plate.placements = [0, 9, 20, 30].map((x_mm) => ({ model: 0, plate: 0, x_mm, y_mm: 0, turn_deg: 0 }));
+  session.plate.move(1, { x_mm: 12 }, true);
+  await settle();
+  const { snapshot, settings } = session;
+  if (snapshot === null) throw new Error("no snapshot");
+  const before = session.plate.entries;
+
+  start();
+  const reopening = session.reopen(snapshot);
+  slicer.last.resolve(model);
+  await reopening;
+  await settle();
+  expect(session.settings).toEqual(settings);
+  expect(session.model?.name).toBe("ring.stl");
+  const facts = ({ model: { name }, copies, pose, own, weights }: (typeof before)[number]): object => ({ name, copies, pose, own, weights });
+  expect(session.plate.entries.map(facts)).toEqual(before.map(facts));
+  expect(session.plate.placed.map(({ x_mm }) => x_mm)).toEqual([0, 12, 20, 30]);
+  expect(session.snapshot).toEqual({ ...snapshot, models: snapshot.models.map((it, i) => ({ ...it, file: session.plate.entries[i]?.model.file })) });
+  expect(session.canUndo).toBe(false);
 });

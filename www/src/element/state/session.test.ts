@@ -305,7 +305,7 @@ test("of several files, the first STL is opened and the others wait; a file of a
   await settle();
   expect(session.files.map(({ name }) => name)).toEqual(["a.stl", "b.stl"]);
   void session.openFile(1);
-  slicer.last.resolve({ ...model, name: "b.stl" });
+  slicer.last.resolve({ ...model, name: "b.stl", file: session.files[1] ?? model.file });
   await settle();
   expect([session.model?.name, session.place]).toEqual(["b.stl", 1]);
   // The core inspects the content and reports what it is.

@@ -295,16 +295,16 @@ export function fromAddress(query: string): Settings {
 }
 
 /**
- * URL query from which {@link fromAddress} restores the settings: differences from the defaults, in a fixed order. A very long printer
- * description and very many points are omitted.
+ * URL query from which {@link fromAddress} restores the settings: differences from the defaults, in a fixed order. A printer description
+ * and points of more than `chars` characters are omitted.
  */
-export function toAddress(settings: Settings): string {
+export function toAddress(settings: Settings, chars = ADDRESS_CHARS): string {
   const address = new URLSearchParams();
   const { format, nozzle } = DEFAULT_SETTINGS;
   const usual: Settings = { ...defaultsOf(settings.format, settings.nozzle), format, nozzle };
   for (const key of [...(Object.keys(CHOICES) as (keyof Choices)[]), ...NUMBERS, ...NAMES]) {
-    const text = key === "printer" ? printerText(settings.printer) : settings[key];
-    const isTooLong = (key === "points" || key === "drains") && text.length > ADDRESS_CHARS;
+    const text = key === "printer" ? printerText(settings.printer, chars) : settings[key];
+    const isTooLong = (key === "points" || key === "drains") && text.length > chars;
     if (text !== usual[key] && !isTooLong) address.set(key, text);
   }
   const tolerance = settings.tolerances[settings.metric];
