@@ -2,7 +2,6 @@
 import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
-import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { program } from "./program.js";
 
 /** The element of the page or of a shop. */
@@ -86,8 +85,14 @@ export interface DroppedFile {
   bytes: Uint8Array;
 }
 
-/** Drops files on the page, like a file manager. Returns the page's clock at the drop, in ms. */
-export async function drop(page: Page, ...files: DroppedFile[]): Promise<number> {
+/** Drops files on the page, like a file manager, in place of open models. Returns the page's clock at the drop, in ms. */
+export const drop = (page: Page, ...files: DroppedFile[]): Promise<number> => dropAt(page, ".drop-veil .replace", files);
+
+/** The same beside the open models. */
+export const dropBeside = (page: Page, ...files: DroppedFile[]): Promise<number> => dropAt(page, ".drop-veil .add", files);
+
+/** @param place selector of an element that the page shows during the drag */
+async function dropAt(page: Page, place: string, files: readonly DroppedFile[]): Promise<number> {
   // Serves the bytes to the page; as base64 in a message, a large model would take seconds.
   const address = new URL("e2e-drop/", page.url()).href;
   await page.route(`${address}*`, (route) => {
@@ -95,23 +100,25 @@ export async function drop(page: Page, ...files: DroppedFile[]): Promise<number>
     return route.fulfill({ body: Buffer.from(file?.bytes ?? []), contentType: "application/octet-stream" });
   });
   const at = await page.evaluate(
-    async ([from, names, element]) => {
+    async ([from, names, element, place]) => {
       const transfer = new DataTransfer();
       for (const [index, name] of names.entries()) {
         const answer = await fetch(from + String(index));
         transfer.items.add(new File([await answer.arrayBuffer()], name));
       }
-      const target = document.querySelector<CuspWorkbench>(element);
+      const target = document.querySelector(element);
       if (target === null) throw new Error("there is no page");
       const start = performance.now();
       for (const type of ["dragenter", "dragover", "drop"]) {
+        const { x = 0, y = 0, width = 0, height = 0 } = document.querySelector(place)?.getBoundingClientRect() ?? {};
+        const [clientX, clientY] = [x + width / 2, y + height / 2];
         target.dispatchEvent(
-          new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true, composed: true }),
+          new DragEvent(type, { dataTransfer: transfer, bubbles: true, cancelable: true, composed: true, clientX, clientY }),
         );
       }
       return start;
     },
-    [address, files.map(({ name }) => name), ELEMENT] as const,
+    [address, files.map(({ name }) => name), ELEMENT, place] as const,
   );
   await page.unroute(`${address}*`);
   return at;

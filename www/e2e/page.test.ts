@@ -88,12 +88,18 @@ test("a model is pasted, chosen or opened by Control and O, as STL, OBJ or 3MF: 
   };
   await page.getByLabel(/Choose a file/).setInputFiles({ name: "chosen.obj", mimeType: "", buffer: Buffer.from(objOf(bytes)) });
   await opened("chosen.obj");
+  const again = async (): Promise<void> => {
+    await page.reload();
+    await state(page, "empty");
+  };
+  await again();
   await page.evaluate((bytes) => {
     const clipboardData = new DataTransfer();
     clipboardData.items.add(new File([Uint8Array.from(bytes)], "pasted.stl"));
     document.body.dispatchEvent(new ClipboardEvent("paste", { clipboardData, bubbles: true, cancelable: true }));
   }, [...bytes]);
   await opened("pasted.stl");
+  await again();
   const opening = page.waitForEvent("filechooser");
   // Playwright subscribes to the dialog by a command, which must be answered before the key.
   await page.evaluate(() => undefined);
@@ -162,6 +168,8 @@ test("files, links and folders that will not do are refused in words, and the pa
   await mkdir(join(folder, "parts"));
   await writeFile(join(folder, "parts/deep.stl"), stl);
   await dropped({ items: [], files: [folder] });
-  await expect.poll(() => page.locator(".model-name").innerText()).toBe("deep.stl");
+  // Beside the open model; without a printer, the plate has a usual size.
+  await expect.poll(() => page.locator("cusp-plate .name").allInnerTexts()).toEqual(["ball", "deep.stl"]);
+  expect(await page.locator(".model").innerText()).toContain("192 × 120");
   await state(page, "done");
 });

@@ -3,7 +3,7 @@ import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, settled, state } from "./browser.js";
+import { drop, dropBeside, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -39,7 +39,7 @@ test("a browser that keeps nothing has all else", async () => {
   await visitAgain(page);
   await drop(page, ball);
   await state(page, "done");
-  expect(await page.getByRole("button", { name: "Recent models" }).count()).toBe(0);
+  expect(await page.getByRole("button", { name: "Recent work" }).count()).toBe(0);
   expect(await page.locator("cusp-tour").count()).toBe(0);
   await page.getByRole("button", { name: "Presets" }).click();
   await page.getByLabel("Save the current settings as").fill("Fine");
@@ -121,61 +121,70 @@ test("settings are saved, applied, renamed and deleted by keyboard, saved as a f
 const kept = (page: Page): Promise<string[]> =>
   page.evaluate(async () => {
     const root = await navigator.storage.getDirectory();
-    const folder = await root.getDirectoryHandle("recent models").catch(() => null);
+    const folder = await root.getDirectoryHandle("recent work").catch(() => null);
     const names: string[] = [];
-    if (folder !== null) for await (const name of folder.keys()) if (!name.endsWith(".png")) names.push(name.replace(/^[0-9a-f]+/, "model"));
+    if (folder !== null) for await (const name of folder.keys()) if (!name.endsWith(".png")) names.push(name.replace(/^[0-9a-f]{32}$/, "file"));
     return names.sort();
   });
 
-test("models are kept if the person allows it, opened again by keyboard, and deleted when it is switched off", async () => {
+test("work is kept, continued by keyboard at the next visit with supports, copies and placements, and deleted when that is switched off", async () => {
   const page = await start("?rays=512");
   const panel = page.locator("#recent cusp-recent");
-  const button = page.getByRole("button", { name: "Recent models" });
+  const button = page.getByRole("button", { name: "Recent work" });
   await drop(page, ball);
+  await expect.poll(() => kept(page)).toEqual(["file", "index.json"]);
   await state(page, "done");
-  expect(await kept(page)).toEqual([]);
-  await button.click();
-  // Keeps the open model and all later ones.
-  await panel.getByRole("checkbox", { name: "Keep models in this browser" }).check();
-  await expect.poll(() => kept(page)).toEqual(["index.json", "model"]);
-  await drop(page, cube);
-  await expect.poll(() => kept(page)).toEqual(["index.json", "model", "model"]);
+  await page.evaluate(() => Object.assign(document.querySelector("cusp-workbench") ?? {}, { query: "printer=mars-4-ultra&supports=light&height=8&points=0,0,0,,1" }));
+  await dropBeside(page, cube);
+  await page.locator("cusp-plate").waitFor();
   await state(page, "done");
+  await page.locator("cusp-plate").getByRole("button", { name: /^One more/ }).first().click();
+  await state(page, "done");
+  await settled(page);
+  const work = (): Promise<unknown> =>
+    page.evaluate(() => {
+      const element = document.querySelector("cusp-workbench");
+      return { query: element?.query, models: element?.models.map(({ name, own }) => ({ name, own })) };
+    });
+  const before = await work();
+  await expect.poll(() => kept(page)).toEqual(["file", "file", "index.json"]);
+  // All of it is kept, so that the page closes without a question.
+  await page.waitForTimeout(1500);
+  expect(await page.evaluate(() => window.dispatchEvent(new Event("beforeunload", { cancelable: true })))).toBe(true);
 
-  // A page without a model starts with the recent ones.
-  await visitAgain(page, "?rays=512");
-  await page.locator(".recent cusp-recent").getByRole("button", { name: /^small ball\.stl/ }).waitFor();
+  await visitAgain(page);
+  const offer = page.locator(".recent cusp-recent");
+  await offer.getByRole("button", { name: /^ball\.stl and 1 more/ }).waitFor();
   expect(await broken(page), "without a model").toEqual([]);
-  // The example is not a file of the user.
-  await page.getByRole("button", { name: "Try the example" }).click();
+  await offer.getByRole("button", { name: /^ball\.stl and 1 more/ }).press("Enter");
+  await page.locator("cusp-plate").waitFor();
+  await state(page, "done");
+  expect(await work()).toEqual(before);
+
+  // The example is not a file of the user. Other work is listed beside the first.
+  await page.getByRole("button", { name: "Example" }).click();
+  await expect.poll(() => page.locator("cusp-plate").count()).toBe(0);
+  await state(page, "done");
+  await drop(page, cube);
   await state(page, "done");
   await button.focus();
   await page.keyboard.press("Enter");
   const names = (list = panel): Promise<string[]> =>
     list.locator(".row span").allInnerTexts().then((all) => all.map((it) => it.split("\n")[0] ?? ""));
-  await expect.poll(names).toEqual(["small ball.stl", "ball.stl"]);
+  await expect.poll(names).toEqual(["small ball.stl", "ball.stl and 1 more"]);
   expect(await broken(page)).toEqual([]);
-  await panel.getByRole("button", { name: /^ball\.stl/ }).press("Enter");
-  await expect.poll(() => page.evaluate(() => document.querySelector("cusp-workbench")?.model?.name)).toBe("ball.stl");
-  await state(page, "done");
-  expect(await panel.isVisible()).toBe(false);
-  await button.click();
-  await expect.poll(names).toEqual(["ball.stl", "small ball.stl"]);
-
-  await panel.getByRole("button", { name: "Delete ball.stl" }).press("Enter");
+  await panel.getByRole("button", { name: "Delete ball.stl and 1 more" }).press("Enter");
   await expect.poll(names).toEqual(["small ball.stl"]);
   await expect.poll(() => isFocused(panel.getByRole("button", { name: "Delete small ball.stl" }))).toBe(true);
   await panel.getByRole("checkbox").uncheck();
   await expect.poll(() => kept(page)).toEqual([]);
-  expect(await panel.getByRole("status").innerText()).toBe("All models deleted from this browser.");
+  expect(await panel.getByRole("status").innerText()).toBe("All work deleted from this browser.");
 });
 
-test("a store of models that is full or fails keeps none, says so, and slicing goes on", async () => {
+test("a store that is full or fails keeps nothing, says so once, and slicing goes on", async () => {
   const page = await start();
   const panel = page.locator("#recent cusp-recent");
   const notice = page.locator("#notice");
-  await page.getByRole("button", { name: "Recent models" }).click();
-  await panel.getByRole("checkbox").check();
   await page.evaluate(() => {
     FileSystemFileHandle.prototype.createWritable = () => Promise.reject(new DOMException("full", "QuotaExceededError"));
   });
@@ -190,8 +199,9 @@ test("a store of models that is full or fails keeps none, says so, and slicing g
   });
   await drop(page, cube);
   await state(page, "done");
-  await expect.poll(() => notice.innerText()).toContain("small ball.stl was not kept");
-  await page.getByRole("button", { name: "Recent models" }).click();
+  await page.waitForTimeout(1500);
+  expect(await notice.count()).toBe(0);
+  await page.getByRole("button", { name: "Recent work" }).click();
   await panel.getByRole("checkbox").uncheck();
   await expect.poll(() => panel.getByRole("status").innerText()).toContain("storage is full or switched off");
 });

@@ -84,6 +84,6 @@ export function frame(
       </cusp-workbench>
     </main>
     ${notice === null ? nothing : noticeBar(notice, words, dismiss)}
-    <div class="drop-veil"><p>${words.drop}</p></div>
+    <div class="drop-veil"><p class="open">${words.drop}</p><p class="add">${words.dropAdd}</p><p class="replace">${words.dropReplace}</p></div>
   `;
 }

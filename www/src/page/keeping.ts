@@ -1,12 +1,16 @@
-/** Support and consent for keeping models between visits. */
+/** Support for keeping work between visits, which the user may turn off. */
 import { readKept, writeKept } from "./storage.js";
 
 /** False in older Safari and on pages without TLS. Some private windows refuse only later: see `recentModels()`. */
 export const canKeep = (): boolean =>
   "createWritable" in (globalThis.FileSystemFileHandle?.prototype ?? {}) && "locks" in navigator && "getDirectory" in navigator.storage;
 
-export const isKeeping = (): boolean => readKept("models") !== null;
+export const isKeeping = (): boolean => readKept("work") !== "off";
 
-export function setKeeping(is: boolean): void {
-  writeKept("models", is ? "kept" : null);
+/** Returns true if work has been kept before. */
+export const hasKept = (): boolean => readKept("work") === "on";
+
+/** Returns true on success. */
+export function setKeeping(is: boolean): boolean {
+  return writeKept("work", is ? "on" : "off");
 }

@@ -21,9 +21,12 @@ class Element extends EventTarget {
 
 let element: Element;
 
+let isKept: boolean;
+
 const start = (asked = ""): void => {
   element = new Element();
-  askBeforeLeaving(element as unknown as Parameters<typeof askBeforeLeaving>[0], asked);
+  isKept = false;
+  askBeforeLeaving(element as unknown as Parameters<typeof askBeforeLeaving>[0], asked, () => isKept);
 };
 
 const asks = (): boolean => !window.dispatchEvent(new Event("beforeunload", { cancelable: true }));
@@ -64,4 +67,11 @@ test("points that a link brought are still in it", () => {
   expect(asks()).toBe(false);
   element.does({ points: "1,2,3,,1;4,5,6,,1" }, "cusp-change");
   expect(asks()).toBe(true);
+});
+
+test("work that the browser has kept is left without a question", () => {
+  element.does({ isPainted: true }, "cusp-paint");
+  expect(asks()).toBe(true);
+  isKept = true;
+  expect(asks()).toBe(false);
 });

@@ -1,4 +1,4 @@
-/** Asks before the user leaves the page, but only if handmade edits would be lost. */
+/** Asks before the user leaves the page, but only if handmade edits would be lost: not where this browser keeps them. */
 import type { Handwork, SlicerElement } from "../element/slicer-element.js";
 import { fromAddress } from "../element/state/settings.js";
 
@@ -8,14 +8,19 @@ type Worked = Pick<SlicerElement, "handwork" | "plates" | "addEventListener">;
 /** Events that may change whether there are edits to lose. */
 const EVENTS = ["cusp-load", "cusp-change", "cusp-paint", "cusp-plan", "cusp-export"] as const;
 
-/** @param asked settings of the URL, which may already contain points */
-export function askBeforeLeaving(element: Worked, asked: string): void {
+/**
+ * @param asked settings of the URL, which may already contain points
+ * @param isKept returns true if this browser has kept the edits
+ */
+export function askBeforeLeaving(element: Worked, asked: string, isKept: () => boolean): void {
   const link = fromAddress(asked);
   const isWork = ({ isPainted, points, drains, models }: Handwork): boolean =>
     isPainted || models > 1 || (points !== "" && points !== link.points) || (drains !== "" && drains !== link.drains);
   const plan = (): unknown => element.plates?.plates[0]?.report;
   let saved: unknown = null;
-  const ask = (event: Event): void => event.preventDefault();
+  const ask = (event: Event): void => {
+    if (!isKept()) event.preventDefault();
+  };
   for (const name of EVENTS) {
     element.addEventListener(name, () => {
       if (name === "cusp-export") saved = plan();

@@ -7,6 +7,7 @@ import { frame } from "./frame.js";
 import { idle } from "../api/calls.js";
 import { fetchView } from "../element/panels/model-view.js";
 import { isNamedAsModel } from "../element/state/choice.js";
+import type { Snapshot } from "../element/state/snapshot.js";
 import { isModel } from "./is-model.js";
 import { askBeforeLeaving } from "./leaving.js";
 import type { Notice } from "./notice.js";
@@ -49,13 +50,16 @@ function say(said: Notice | null): void {
   draw();
 }
 
-/** Shows a print file or opens models. Files whose content is not a model go first to the reader, which alone knows print files. */
-async function open(files: readonly File[]): Promise<void> {
+/**
+ * Shows a print file, or adds models to the open ones, which they may replace. Files whose content is not a model go first to the reader,
+ * which alone knows print files.
+ */
+async function open(files: readonly File[], isReplacing = false): Promise<void> {
   const [first] = files;
   if (first === undefined) return;
   notice = null;
   // The slicer reports a file that cannot be read.
-  if (await isModel(first).catch(() => true)) return load(files);
+  if (await isModel(first).catch(() => true)) return load(files, isReplacing);
   try {
     const [{ definePrint }] = await Promise.all([import("../print/cusp-print.js"), fetchRest()]);
     definePrint();
@@ -74,11 +78,17 @@ function unread(files: readonly File[]): void {
   say({ says: "reader", name });
 }
 
-function load(files: readonly File[]): void {
+function load(files: readonly File[], isReplacing = false): void {
   close();
   slicer.willOrphan();
   // The element shows any error.
-  slicer.load(files).catch(() => undefined);
+  (isReplacing ? slicer.load(files) : slicer.take(files)).catch(() => undefined);
+}
+
+async function reopen(snapshot: Snapshot): Promise<boolean> {
+  close();
+  slicer.willOrphan();
+  return (await slicer.reopen(snapshot)) !== null;
 }
 
 function close(): void {
@@ -114,6 +124,7 @@ const visit = new Visit({
   element: () => slicer,
   link: () => new URL(addressOf(slicer.query, own) || location.pathname, location.href).href,
   open: (files) => void open(files),
+  reopen,
   draw,
   say,
   targets: [within(".view"), within(".path"), within(".plan .download, .bar-result")],
@@ -133,10 +144,10 @@ async function start(): Promise<void> {
   const method = own.get("gpu-method");
   if (method === "fill" || method === "peel") slicer.gpuMethod = method;
   slicer.addEventListener("cusp-change", keep);
-  askBeforeLeaving(slicer, settingsOf(asked));
+  askBeforeLeaving(slicer, settingsOf(asked), () => visit.isKept);
   openAnywhere({
     dragging: (isDragging) => place.classList.toggle("dragging", isDragging),
-    open: (files) => void open(files),
+    open: (files, isReplacing) => void open(files, isReplacing),
     refuse(error, name) {
       close();
       slicer.refuse(error, name);

@@ -1,9 +1,21 @@
 /** Accepts dropped and pasted files anywhere on the page, and Escape from any focus. */
 import { takeDrop, type DropHost } from "../element/dropped.js";
 
+/** Selector of the place where a drop replaces the open models. Elsewhere it is added to them. */
+const REPLACING = ".drop-veil .replace";
+
 export interface Anywhere extends DropHost {
   dragging(is: boolean): void;
+  open(files: readonly File[], isReplacing?: boolean): void;
   cancel(): void;
+}
+
+const replacing = (): Element | null => document.querySelector(REPLACING);
+
+/** Tells by the position, since a veil that takes events would change the target under the pointer. */
+function isReplacing({ clientX, clientY }: DragEvent): boolean {
+  const { left, right, top, bottom } = replacing()?.getBoundingClientRect() ?? new DOMRect();
+  return clientX > left && clientX < right && clientY > top && clientY < bottom;
 }
 
 export function openAnywhere(anywhere: Anywhere): void {
@@ -14,6 +26,7 @@ export function openAnywhere(anywhere: Anywhere): void {
     (event) => {
       event.preventDefault();
       dragging(event.dataTransfer?.types.includes("Files") ?? false);
+      replacing()?.classList.toggle("over", isReplacing(event));
       event.stopPropagation();
     },
     { capture: true },
@@ -27,8 +40,9 @@ export function openAnywhere(anywhere: Anywhere): void {
     (event) => {
       event.preventDefault();
       event.stopPropagation();
+      const isOver = isReplacing(event);
       dragging(false);
-      takeDrop(event.dataTransfer, anywhere);
+      takeDrop(event.dataTransfer, { ...anywhere, open: (files) => open(files, isOver) });
     },
     { capture: true },
   );

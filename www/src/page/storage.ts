@@ -3,8 +3,8 @@
  * starts as on a first visit.
  */
 
-/** Texts kept: the user's printer and resin, named settings, consent to keep models, and whether the tour and `?` are wanted. */
-export type KeptKey = "printer" | "settings" | "models" | "tour" | "question-mark";
+/** Texts kept: the user's printer and resin, named settings, whether work is kept, and whether the tour and `?` are wanted. */
+export type KeptKey = "printer" | "settings" | "work" | "tour" | "question-mark";
 
 const PREFIX = "cusp.";
 

@@ -6,23 +6,28 @@ export const pageWords = room("page", {
   tagline: "Thin layers where the surface needs them, thick ones where it does not.",
   private: "Your model never leaves this computer.",
   drop: "Drop to open",
+  /** The same beside open models, and the place where a drop replaces them. */
+  dropAdd: "Drop to add to the plate",
+  dropReplace: "Drop here to replace",
   /** Label of the language list. */
   languages: "Language",
   noModel: "No model at hand?",
   tryExample: "Try the example",
   printFile: "Look into a print file",
   example: "Example",
-  /** Buttons of the header: models that this browser keeps, named settings, the list of keys. */
-  recent: "Recent models",
+  /** Buttons of the header: work that this browser keeps, named settings, the list of keys. */
+  recent: "Recent work",
   saved: "Presets",
   keys: "Keys",
+  /** Heading of the recent work on a page without a model. */
+  goOn: "Continue with",
   /** Messages about errors of the page itself, with advice. */
   notices: {
     /** Shown if a part could not be loaded. */
     part: "This part of the page could not be loaded; a newer version may have replaced it. Reload the page.",
     /** Shown if the reader of print files could not be loaded for this file. */
     reader: "The reader of print files could not be loaded, so {name} is not open. Reload the page, and open the file again.",
-    /** Shown if this browser did not keep the model. */
+    /** Shown if this browser did not keep the work on a model. */
     notKept: "{name} was not kept for the next visit: this browser has no room for it, or does not allow it.",
     reload: "Reload",
     close: "Close",

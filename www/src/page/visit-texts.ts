@@ -1,4 +1,4 @@
-/** Texts of parts that are fetched on request: named settings, recent models, the tour, the keys. */
+/** Texts of parts that are fetched on request: named settings, recent work, the tour, the keys. */
 import { room } from "../texts/messages.js";
 
 export const visitWords = room("visit", {
@@ -30,14 +30,16 @@ export const visitWords = room("visit", {
     inFile: "cusp.toml saved.",
   },
   recent: {
-    keep: "Keep models in this browser",
-    /** Explains which models are kept, where, and the effect of switching it off. */
-    about: "The last {models} models that you open, up to {bytes}. They stay on this computer and are never sent anywhere. Switching this off deletes them.",
-    none: "Models that you open from now on appear here.",
+    keep: "Keep my work in this browser",
+    /** Explains what is kept, where, and the effect of switching it off. */
+    about: "The last {works} models or plates with their supports, holes, painting and settings, up to {bytes}. They stay on this device. Switching this off deletes them.",
+    none: "What you open from now on appears here.",
+    /** Name of several models. */
+    more: "{name} and {others} more",
     delete: "Delete {name}",
     deleted: "{name} deleted.",
-    allDeleted: "All models deleted from this browser.",
-    /** Shown if another tab has deleted the model. */
+    allDeleted: "All work deleted from this browser.",
+    /** Shown if another tab has deleted the work. */
     gone: "{name} is no longer there.",
   },
   tour: {
@@ -45,7 +47,7 @@ export const visitWords = room("visit", {
     steps: [
       ["Look at the model", "Drag to turn it. Slide through its layers: the colours show how thick they are."],
       ["Step by step", "Orient, hollow, support and check: take the steps that you need, in any order. In the last one you choose printer, resin and layers."],
-      ["Take the file", "Here is what the print takes, and the file for your printer."],
+      ["Take the file", "Here is what the print takes, and the file for your printer. Your work is kept in this browser: see Recent work."],
     ],
     place: "{step} of {steps}",
     next: "Next",

@@ -1,16 +1,18 @@
 /**
- * Conveniences for visitors: the printer of the last visit, named settings, recent models, a short tour on the first visit, and the list of
+ * Conveniences for visitors: the printer of the last visit, named settings, recent work, a short tour on the first visit, and the list of
  * keys. Only requested parts are fetched, except the tour.
  */
 import { html, nothing, type TemplateResult } from "lit";
-import type { Model } from "../api/index.js";
 import { chosen } from "../element/parts/chosen.js";
 import type { SlicerElement } from "../element/slicer-element.js";
+import type { Snapshot } from "../element/state/snapshot.js";
 import { fetchRest, languageOf, type Language } from "../texts/index.js";
+import type { Autosave } from "./autosave.js";
 import { closeFlyout, flyout } from "./flyout.js";
-import { canKeep, isKeeping } from "./keeping.js";
+import { canKeep, hasKept, isKeeping } from "./keeping.js";
 import type { Notice } from "./notice.js";
 import { asksForKeys } from "./question-mark.js";
+import type { OpenedWork } from "./recent-list.js";
 import { remember } from "./remembered.js";
 import { readKept, writeKept } from "./storage.js";
 import { pageWords } from "./texts.js";
@@ -23,6 +25,8 @@ export interface VisitHost {
   /** URL of the current settings. */
   link(): string;
   open(files: readonly File[]): void;
+  /** Goes on with earlier work. Returns false if that failed or was cancelled. */
+  reopen(snapshot: Snapshot): Promise<boolean>;
   /** Redraws the page. */
   draw(): void;
   say(notice: Notice): void;
@@ -35,6 +39,8 @@ export interface VisitHost {
 export class Visit {
   readonly #host: VisitHost;
   #canKeep = canKeep();
+  #autosave: Autosave | null = null;
+  #arriving: Promise<void> | null = null;
   #language = languageOf();
 
   constructor(host: VisitHost) {
@@ -52,7 +58,7 @@ export class Visit {
     const keys = html`<cusp-keys .language=${language} @cusp-tour=${() => void this.#asked(() => this.#tour())}></cusp-keys>`;
     return html`<div class="tools">
       ${this.#canKeep
-        ? flyout({ id: "recent", label: words.recent, icon: "recent", content: this.#list(language, false), opening: () => void this.#asked(() => this.#fetchRecent(), "recent") })
+        ? flyout({ id: "recent", label: words.recent, icon: "recent", content: this.#list(language), opening: () => void this.#asked(() => this.#fetchRecent(), "recent") })
         : nothing}
       ${flyout({ id: "saved", label: words.saved, icon: "saved", content: saved, opening: () => void this.#asked(() => this.#fetchSaved(), "saved") })}
       <button class="keys" aria-label=${words.keys} title=${words.keys} @click=${() => void this.#asked(() => this.#keys())}>?</button>
@@ -60,34 +66,39 @@ export class Visit {
     </div>`;
   }
 
-  /** Recent models, for a page without a model; null if none are kept. */
+  /** Recent work, for a page without a model; null if none is kept. */
   recent(language: Language): TemplateResult | null {
-    if (!this.#canKeep || !isKeeping()) return null;
+    if (!this.#canKeep || !hasKept()) return null;
     return html`<section class="recent">
-      <h2>${pageWords(language).recent}</h2>
-      ${this.#list(language, true)}
+      <h2>${pageWords(language).goOn}</h2>
+      ${this.#list(language)}
     </section>`;
   }
 
-  #list(language: Language, isBare: boolean): TemplateResult {
+  #list(language: Language): TemplateResult {
     const change = (): void => {
       this.#host.draw();
-      void this.#keep();
+      this.#autosave?.changed();
     };
-    return html`<cusp-recent .language=${language} .bare=${isBare} @cusp-files=${this.#open} @cusp-keeping=${change}></cusp-recent>`;
+    return html`<cusp-recent .language=${language} @cusp-work=${this.#open} @cusp-keeping=${change}></cusp-recent>`;
+  }
+
+  /** Returns true if this browser has kept the open work as it is. */
+  get isKept(): boolean {
+    return this.#autosave?.isKept === true && isKeeping();
   }
 
   /** Starts the element, once in the page, with the settings of a URL. */
   start(asked: string): void {
     const element = this.#host.element();
     remember(element, asked);
-    element.addEventListener("cusp-load", () => void this.#keep());
+    if (this.#canKeep) element.addEventListener("cusp-load", () => void (this.#arriving ??= this.#fetchAutosave()));
     element.addEventListener("cusp-plan", () => {
       // If nothing can be stored, every visit would look like the first, so the tour is not shown.
       if (readKept("tour") === null && writeKept("tour", "shown")) this.#tour().catch(() => undefined);
     });
     addEventListener("keydown", this.#key);
-    if (this.#canKeep && isKeeping()) void this.#asked(() => this.#fetchRecent());
+    if (this.#canKeep && hasKept()) void this.#asked(() => this.#fetchRecent());
   }
 
   /** Runs requested work whose code is fetched. If that fails, reports it and closes the empty flyout. */
@@ -114,9 +125,11 @@ export class Visit {
     input.click();
   }
 
-  readonly #open = ({ detail }: CustomEvent<File[]>): void => {
+  readonly #open = async ({ detail: { id, snapshot } }: CustomEvent<OpenedWork>): Promise<void> => {
     closeFlyout("recent");
-    this.#host.open(detail);
+    if (!(await this.#host.reopen(snapshot))) return;
+    await this.#arriving;
+    this.#autosave?.continues(id);
   };
 
   readonly #query = (): string => this.#host.element().query;
@@ -126,10 +139,22 @@ export class Visit {
     this.#host.element().query = detail;
   };
 
+  /** Fetches what keeps the work, with the first model. */
+  async #fetchAutosave(): Promise<void> {
+    try {
+      const { Autosave } = await import("./autosave.js");
+      this.#autosave = new Autosave(this.#host.element(), (name) => this.#host.say({ says: "notKept", name }));
+      this.#autosave.changed();
+    } catch {
+      this.#arriving = null;
+      this.#host.say({ says: "part" });
+    }
+  }
+
   async #fetchRecent(): Promise<void> {
     await fetchRest();
-    const [{ recentModels }] = await Promise.all([import("./recent-models.js"), import("./recent-list.js")]);
-    if ((await recentModels()) !== null) return;
+    const [{ recentWorks }] = await Promise.all([import("./recent-work.js"), import("./recent-list.js")]);
+    if ((await recentWorks()) !== null) return;
     this.#canKeep = false;
     this.#host.draw();
   }
@@ -157,37 +182,5 @@ export class Visit {
     const { targets, clearance, element } = this.#host;
     await element().updateComplete;
     document.body.prepend(Object.assign(new CuspTour(), { targets, clearance, language: this.#language }));
-  }
-
-  /** Keeps the open model if the user permits it, with its picture once planned. */
-  async #keep(): Promise<void> {
-    const element = this.#host.element();
-    const { model } = element;
-    // The example is not a file.
-    if (model === null || !(model.file instanceof File) || !isKeeping()) return;
-    const { file, name } = model;
-    try {
-      const { recentModels, PICTURE_PX } = await import("./recent-models.js");
-      const models = await recentModels();
-      const kept = await models?.keep(name, file);
-      // Keeping was switched off meanwhile, perhaps in another tab.
-      if (!isKeeping()) return await models?.deleteAll();
-      if (models === null || kept == null) return this.#host.say({ says: "notKept", name });
-      if ((await models.picture(kept)) !== null) return;
-      await planned(element, model);
-      if (element.model !== model) return;
-      // Without WebGL, there is no picture.
-      await element.thumbnail(PICTURE_PX).then((png) => models.setPicture(kept, png)).catch(() => undefined);
-    } catch {
-      this.#host.say({ says: "notKept", name });
-    }
-  }
-}
-
-/** Waits until the element shows a plan of this model, or another model. */
-async function planned(element: SlicerElement, model: Model): Promise<void> {
-  while (element.model === model && element.state !== "done") {
-    await new Promise((resolve) => element.addEventListener("cusp-plan", resolve, { once: true }));
-    await element.updateComplete;
   }
 }
