@@ -3,7 +3,7 @@ import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { LANGUAGES } from "../src/texts/index.js";
 import { broken } from "./axe.js";
-import { download, drop, layers, openPanel, settled, state } from "./browser.js";
+import { choosePrinter, download, drop, layers, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -341,12 +341,12 @@ test("an accessibility checker finds nothing amiss in any state, nor too little 
   await page.getByLabel("Measure errors by").selectOption("volume");
   await page.getByText("More settings").click();
   await page.locator("details.figures summary").click();
-  await page.getByLabel("Printer", { exact: true }).selectOption("photon-mono-m5s");
+  await choosePrinter(page, "mono m5s");
   await page.getByText("so they are uniform").waitFor();
   await page.getByText("Adaptive", { exact: true }).click();
   await settled(page);
   await page.locator(".warning .offers button").waitFor();
-  await page.getByLabel("Printer", { exact: true }).selectOption("Own printer…");
+  await choosePrinter(page, "own printer of mine");
   await page.getByLabel("Open its description").waitFor({ state: "attached" });
   await checkedDark("all settings, and a warning");
 });

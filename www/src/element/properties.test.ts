@@ -15,8 +15,8 @@ type Properties = { [Name in Own]: CuspSlicer[Name] extends (...given: never) =>
 type Settable = { [Name in Properties]: IsReadOnly<Name> extends true ? never : Name }[Properties];
 
 test("the lists name every settable property and every read-only one", () => {
-  // `dragging` is internal.
-  expectTypeOf<Exclude<Settable, "dragging">>().toEqualTypeOf<PropertyName>();
+  // `dragging` and `recentPrinters` are internal.
+  expectTypeOf<Exclude<Settable, "dragging" | "recentPrinters">>().toEqualTypeOf<PropertyName>();
   expectTypeOf<Exclude<Properties, Settable | "slicer">>().toEqualTypeOf<(typeof READ_ONLY)[number]>();
 });
 

@@ -27,6 +27,7 @@ function store(isBroken = false): Map<string, string> {
 
 /** An element with settings only. */
 class Element extends EventTarget {
+  recentPrinters: readonly string[] = [];
   printer = fromAddress("").printer;
   model: SlicerElement["model"] = null;
   result: SlicerElement["result"] = null;
@@ -96,6 +97,15 @@ test("a printer that a person chooses is there at the next visit; one that a lin
   first.query = "printer=mars&exposure=3&height=60";
   expect(visit("metric=area", "saturn", "mars").query).toBe("metric=area&exposure=3&printer=mars");
   expect(visit("printer=saturn", "saturn", "mars").query).toBe("printer=saturn");
+});
+
+test("the last printers chosen are offered first at the next visit", () => {
+  store();
+  const first = visit("", "saturn", "mars");
+  first.query = "printer=mars";
+  first.query = "printer=saturn";
+  first.query = "printer=mars&exposure=3";
+  expect(visit("", "saturn", "mars").recentPrinters).toEqual(["mars", "saturn"]);
 });
 
 test("a printer of one's own is remembered once a plan was made with it, so never one that the core refuses", () => {

@@ -40,14 +40,18 @@ function replaced(query: string, own: string): string {
   return new URLSearchParams([...rest, ...new URLSearchParams(own)]).toString();
 }
 
+/** Printers at the top of the list. */
+const MOST_RECENT = 5;
+
 /** The part of the element used by `remember`. */
-type Chooser = Pick<SlicerElement, "query" | "printer" | "model" | "result" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
+type Chooser = Pick<SlicerElement, "query" | "printer" | "recentPrinters" | "model" | "result" | "addEventListener"> & { slicer: Pick<SlicerElement["slicer"], "printers"> };
 
 /** Starts the element with the settings of a URL and the remembered ones, and remembers the user's choices. */
 export function remember(element: Chooser, asked: string): void {
   const chosen = (): string => rememberedOf(element.query, element.printer);
   const start = recalled(asked, readKept("printer") ?? "");
   element.query = start;
+  element.recentPrinters = (readKept("printers") ?? "").split(",").filter((name) => name !== "");
   let last = chosen();
   const forget = (): void => {
     element.query = replaced(element.query, "");
@@ -60,6 +64,10 @@ export function remember(element: Chooser, asked: string): void {
     if (now === last || !isGood()) return;
     writeKept("printer", now);
     last = now;
+    const { printer, recentPrinters: before } = element;
+    if (typeof printer !== "string" || printer === "" || printer === before[0]) return;
+    element.recentPrinters = [printer, ...before.filter((name) => name !== printer)].slice(0, MOST_RECENT);
+    writeKept("printers", element.recentPrinters.join());
   };
   element.addEventListener("cusp-change", keep);
   element.addEventListener("cusp-plan", keep);

@@ -3,8 +3,8 @@
  * starts as on a first visit.
  */
 
-/** Texts kept: the user's printer and resin, named settings, whether work is kept, and whether the tour and `?` are wanted. */
-export type KeptKey = "printer" | "settings" | "work" | "tour" | "question-mark";
+/** Texts kept: the user's printer and resin, names of printers chosen before, named settings, whether work is kept, and whether the tour and `?` are wanted. */
+export type KeptKey = "printer" | "printers" | "settings" | "work" | "tour" | "question-mark";
 
 const PREFIX = "cusp.";
 

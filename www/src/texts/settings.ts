@@ -53,7 +53,9 @@ export const settings = {
     noPrinter: "No printer",
     noPrinterHint: "Choose a printer to get a file for it.",
     /** What is known of a printer, beside its name in the list. */
-    layersOf: { yes: "adaptive layers confirmed", no: "one thickness" },
+    layersOf: { yes: "adaptive layers confirmed", untried: "adaptive layers not confirmed yet", no: "one thickness" },
+    /** Placeholder of the search. */
+    findPrinter: "Maker or model",
     ownPrinter: "Own printer…",
     openPrinter: "Open its description",
     ownPrinterHint: "A JSON file with at least pixels, pitch_um and volume_mm.",

@@ -12,7 +12,8 @@ import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { adopt, FetchedPanel } from "../parts/part.js";
 import { towersOffer, type TowersState } from "../parts/towers-offer.js";
-import { byMaker, formatFor, modelOf, printerOf } from "../state/printer.js";
+import { found, printerSearch, printerSearchStyles, type Entry, type Search } from "../parts/printer-search.js";
+import { formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
 import { SIZE_FIELDS, usualSize, type SizeField } from "../state/support-sizes.js";
@@ -40,7 +41,7 @@ export function hasPlace({ field }: Problem, { printer }: Settings, { printers }
 /** Units of files; the first applies to files that state none. */
 const UNITS = ["millimeter", "inch", "centimeter", "meter", "foot", "micron"] as const satisfies readonly ModelUnit[];
 
-/** Values of the list of printers that are not names. */
+/** Values of the list of printers that are not names: the custom printer, and its opening. */
 const OWN = "{}";
 const OPEN = "{…}";
 
@@ -53,8 +54,6 @@ interface Choosing {
   change?: (value: string) => void;
   /** Full name of the selected option, if it may be too long for the list. */
   title?: string;
-  /** Content below the list. */
-  more?: TemplateResult | typeof nothing;
 }
 
 /** Optional parts of a text field. */
@@ -88,6 +87,8 @@ const PROPERTIES = {
   measures: own(false),
   /** True while the button that opens a custom printer's description is shown. */
   isOpening: own(false),
+  /** Search for a printer; null while the list is closed. */
+  search: own<Search | null>(null),
 };
 
 /** Fetched on demand: a resin is measured once. */
@@ -101,7 +102,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   /** Text of each field as typed, with the resulting setting. */
   readonly #typed = new Map<Field, { text: string; said: string }>();
 
-  static override styles = [shared, problemStyles, settingsStyles];
+  static override styles = [shared, problemStyles, settingsStyles, printerSearchStyles];
 
   override willUpdate(changed: PropertyValues<this>): void {
     if (typeof this.settings.printer === "object") this.#own = this.settings.printer;
@@ -167,30 +168,39 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return minimize === "time" ? words.quickestHint : words.fewestHint;
   }
 
-  /** Printers by maker. A custom one stays in the list while another is chosen. */
+  /** Searchable list of printers. A custom one stays in the list while another is chosen. */
   #printer(): TemplateResult {
-    const { settings, offered, language, isOpening } = this;
+    const { settings, offered: { printers, recent = [] }, language, isOpening, search } = this;
     const words = language.texts.settings;
     const value = isOpening ? OPEN : typeof settings.printer === "string" ? settings.printer : OWN;
-    const layersOf = new Map(offered.printers.map(({ name, variable_layers }) => [name, variable_layers]));
-    const marked = ([name, model]: readonly [string, string]): readonly [string, string] => {
-      const known = layersOf.get(name) ?? "untried";
-      return [name, known === "untried" ? model : `${model} — ${words.layersOf[known]}`];
-    };
-    // Each group has a fixed place, so that no option turns into another.
-    const list = html`${options([["", words.noPrinter]], value)}
-      ${this.#own === null ? nothing : options([[OWN, modelOf(this.#own)]], value)}
-      ${options([[OPEN, words.ownPrinter]], value)}
-      ${byMaker(offered.printers).map(([maker, models]) => html`<optgroup label=${maker}>${options(models.map(marked), value)}</optgroup>`)}`;
-    const change = (value: string): void => {
-      // Shows a button rather than a file dialog: arrow keys also change a closed list.
-      this.isOpening = value === OPEN;
-      if (!this.isOpening) this.#say(withPrinter(settings, value === OWN ? (this.#own ?? "") : value));
-    };
-    const more = isOpening ? this.#opener() : nothing;
-    const hint = isOpening ? words.ownPrinterHint : this.#printerHint();
-    const chosen = isOpening ? null : printerOf(settings.printer, offered.printers);
-    return this.#select("printer", words.printer, list, { value, change, more, hint, title: chosen === null ? "" : modelOf(chosen) });
+    const chosen = isOpening ? null : printerOf(settings.printer, printers);
+    const other = (value: string, name: string): Entry => ({ value, name, layers: null });
+    const entries = (text: string): readonly Entry[] => [
+      ...(this.#own === null ? [] : [other(OWN, modelOf(this.#own))]),
+      ...found(printers, text, recent),
+      ...(value === "" || text !== "" ? [] : [other("", words.noPrinter)]),
+      other(OPEN, words.ownPrinter),
+    ];
+    const isFixed = this.fixed.has("printer");
+    const hint = this.#hint(isOpening ? words.ownPrinterHint : this.#printerHint(), isFixed);
+    return html`<div class="field">
+      <label for="printer">${words.printer}</label>
+      ${printerSearch({
+        ...{ search, value, isFixed, language },
+        chosen: isOpening ? words.ownPrinter : chosen === null ? value : modelOf(chosen),
+        describedBy: hint === "" ? null : "printer-hint",
+        entries: search === null ? [] : entries(search.text),
+        searches: (search) => (this.search = search),
+        choose: (value) => this.#choosePrinter(value),
+      })}
+      ${hint === "" ? nothing : html`<p class="hint" id="printer-hint">${hint}</p>`} ${isOpening ? this.#opener() : nothing} ${this.#beside("printer")}
+    </div>`;
+  }
+
+  #choosePrinter(value: string): void {
+    this.search = null;
+    this.isOpening = value === OPEN;
+    if (!this.isOpening) this.#say(withPrinter(this.settings, value === OWN ? (this.#own ?? "") : value));
   }
 
   #printerHint(): string {
@@ -409,7 +419,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, title = "", more = nothing }: Choosing = {}): TemplateResult {
+  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, title = "" }: Choosing = {}): TemplateResult {
     const isFixed = this.fixed.has(key);
     const say = change ?? ((value: string): void => this.#say({ [key]: value }));
     const words = this.#hint(hint, isFixed);
@@ -427,7 +437,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
           ${list}
         </select>
       </div>
-      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${more} ${this.#beside(key)}
+      ${words === "" ? nothing : html`<p class="hint" id="${key}-hint">${words}</p>`} ${this.#beside(key)}
     </div>`;
   }
 

@@ -22,6 +22,7 @@ export abstract class Preferences implements Offered {
   gpuMethod: GpuMethod | null = null;
   printers: readonly KnownPrinter[] = [];
   resins: readonly Resin[] = [];
+  recent: readonly string[] = [];
   /** Settings that only the page may change. */
   fixed: ReadonlySet<keyof Settings> = new Set();
   readonly #history = new History<Step>();

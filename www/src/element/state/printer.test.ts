@@ -1,8 +1,8 @@
 import { expect, test } from "vitest";
-import type { Format as PrintFormat, KnownPrinter, Printer, Warning, ModelReport } from "../../api/wire.js";
+import type { Format as PrintFormat, Printer, Warning, ModelReport } from "../../api/wire.js";
 import { languageOf, LANGUAGES, type Language } from "../../texts/index.js";
 import { fileWords } from "../parts/file-words.js";
-import { byMaker, formatFor, isPrinter, printerFrom, printerOf, printerText, readPrinter } from "./printer.js";
+import { formatFor, isPrinter, printerFrom, printerOf, printerText, readPrinter } from "./printer.js";
 import { knownPrinter } from "./printer-fixture.js";
 import { report } from "./report-fixture.js";
 
@@ -128,20 +128,6 @@ test("an address carries a description, unless it is very long or broken", () =>
   expect(printerFrom("saturn")).toBe("saturn");
   expect(printerText({ ...MINE, model: "M".repeat(2000) })).toBe("");
   expect(printerFrom('{"pixels": [')).toBe("");
-});
-
-test("a list of printers is sorted by maker and model, in which numbers count as such", () => {
-  const named = (name: string, model: string): KnownPrinter => knownPrinter({ name, model });
-  const printers = [
-    ...[named("x10", "EPAX X10"), named("x1", "EPAX X1"), named("d8", "Wanhao D8"), named("s3u", "Elegoo Saturn 3 Ultra")],
-    ...[named("s3", "Elegoo Saturn 3"), named("s", "Elegoo Saturn"), named("one", "Solus")],
-  ];
-  expect(byMaker(printers)).toEqual([
-    ["Elegoo", [["s", "Saturn"], ["s3", "Saturn 3"], ["s3u", "Saturn 3 Ultra"]]],
-    ["EPAX", [["x1", "X1"], ["x10", "X10"]]],
-    ["Solus", [["one", "Solus"]]],
-    ["Wanhao", [["d8", "D8"]]],
-  ]);
 });
 
 test("the line at the download of a hollow model does not say that it is solid", () => {

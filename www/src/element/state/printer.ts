@@ -45,20 +45,8 @@ export function formatFor({ printer, format }: { printer: ChosenPrinter; format:
   return format || (printerOf(printer, known)?.format ?? "png");
 }
 
-const COLLATOR = new Intl.Collator("en", { numeric: true });
-
-/** Printers by maker, the first word of a model, with the rest of the model; both sorted alphabetically. */
-export function byMaker(printers: readonly KnownPrinter[]): [maker: string, models: (readonly [name: string, model: string])[]][] {
-  const makers = new Map<string, (readonly [string, string])[]>();
-  for (const { name, model } of printers) {
-    const [maker = model, ...rest] = model.split(" ");
-    const models = makers.get(maker) ?? [];
-    models.push([name, rest.join(" ") || maker]);
-    makers.set(maker, models);
-  }
-  for (const models of makers.values()) models.sort(([, a], [, b]) => COLLATOR.compare(a, b));
-  return [...makers].sort(([a], [b]) => COLLATOR.compare(a, b));
-}
+/** Order of names. */
+export const COLLATOR = new Intl.Collator("en", { numeric: true });
 
 /** Maximum size of a description file: a hundred times a full description. */
 const MOST_BYTES = 64_000;

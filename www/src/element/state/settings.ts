@@ -96,6 +96,8 @@ export type Faults = Partial<Record<Field, Fault>>;
 /** The printers and resins to choose from. */
 export interface Offered {
   printers: readonly KnownPrinter[];
+  /** Names of printers chosen before, the last first. */
+  recent?: readonly string[];
   resins: readonly Resin[];
 }
 
