@@ -24,6 +24,7 @@ pub use schedule::{SAME_S, Schedule};
 use serde::Serialize;
 use serde_json::value::RawValue;
 use survey::{Bounds, Survey};
+pub(crate) use zip::{File, write_zip};
 
 use crate::format::Format;
 use crate::mask::{LayerRuns, Run, RunSource};

@@ -166,6 +166,11 @@ impl LoadedModel {
         Ok(())
     }
 
+    /// The weights that are set, if any.
+    pub fn painted(&self) -> Option<&[f32]> {
+        self.painted.as_deref()
+    }
+
     /// The saliency of each facet of the surface, 0 to 1: how much it stands out. It is the same in every pose.
     ///
     /// # Errors

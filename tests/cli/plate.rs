@@ -2,11 +2,13 @@
 
 use std::process::Output;
 
+use cusp_slicer::job::LoadedModel;
+use cusp_slicer::model::weights;
 use serde_json::{Value, json};
 use tempfile::TempDir;
 
 use super::{assert_fails, cusp, model, names, slab, sphere, whole_json as parsed};
-use crate::common::{binary_stl, solids};
+use crate::common::{assert_near, binary_stl, solids};
 
 /// A plate of 40 × 30 mm.
 const SMALL: [&str; 6] = ["--pixels", "400x300", "--pitch", "0.1", "--backend", "cpu"];
@@ -258,4 +260,150 @@ fn weights_of_a_job_file_belong_to_their_model() {
     assert!(small(&["plate", &job, "-o", &again]).status.success());
     let again = parsed(&cusp(&["plan", &again, "--json"]));
     assert_eq!(again["plates"][0]["models"], *models);
+}
+
+#[test]
+fn a_project_holds_models_weights_and_options_and_gives_the_print_files_of_the_job_file() {
+    let folder = TempDir::new().unwrap();
+    let (ball, slab) = (sphere(&folder), slab(&folder));
+    let loaded = LoadedModel::read(&std::fs::read(&ball).unwrap()).unwrap();
+    let corners = loaded.positions();
+    let weights: Vec<f32> = (0..corners.len() / 9)
+        .map(|facet| if facet % 2 == 0 { 1.0 } else { 0.25 })
+        .collect();
+    let painted = path_in(&folder, "ball.weights");
+    std::fs::write(&painted, weights::to_bytes(&weights, &corners)).unwrap();
+    let job = json!({
+        "models": [
+            {"file": &ball, "copies": 2, "weights": &painted, "height_mm": 7.0, "rotation": [0.5, 0.0, 0.0, 0.9]},
+            {"file": &slab, "supports": {"strength": "light"}},
+        ],
+        "options": {"pixels": [400, 300], "pitch_mm": 0.1, "backend": "cpu", "format": "goo"},
+        "arranging": {"spacing_mm": 1.5},
+    });
+    let (by_hand, arranged) = (path_in(&folder, "hand.json"), path_in(&folder, "job.json"));
+    std::fs::write(&by_hand, job.to_string()).unwrap();
+    let project = path_in(&folder, "plate.3mf");
+    for output in [&arranged, &project] {
+        assert!(cusp(&["plate", &by_hand, "-o", output]).status.success());
+    }
+    let sliced = |input: &str, name: &str| {
+        let print = path_in(&folder, name);
+        let output = cusp(&["slice", input, "--allow-floating", "-o", &print]);
+        assert!(output.status.success(), "{output:?}");
+        std::fs::read(print).unwrap()
+    };
+    let expected = sliced(&arranged, "job.goo");
+    for file in [&ball, &slab, &painted] {
+        std::fs::remove_file(file).unwrap();
+    }
+    assert!(sliced(&project, "project.goo") == expected);
+
+    // Arranged again, it is another project. Its models have no files that a job file could name.
+    let again = path_in(&folder, "again.3mf");
+    assert!(cusp(&["plate", &project, "-o", &again]).status.success());
+    assert!(sliced(&again, "again.goo") == expected);
+    let output = cusp(&["plate", &project, "-o", &path_in(&folder, "no.json")]);
+    assert_fails(&output, 1, "write another project, -o NAME.3mf");
+
+    // Read as a model, each copy is an object that stands where the report says.
+    let plates = parsed(&cusp(&["plan", &project, "--json"]));
+    let places = plates["plates"][0]["placements"].as_array().unwrap();
+    let bytes = std::fs::read(&project).unwrap();
+    let bodies = boxes(&LoadedModel::read(&bytes).unwrap().positions());
+    assert_eq!(bodies.len(), 3);
+    let mut middles: Vec<_> = bodies
+        .iter()
+        .map(|[low, high]| [0, 1].map(|axis| f64::midpoint(low[axis], high[axis])))
+        .collect();
+    let mut stated: Vec<_> = places
+        .iter()
+        .map(|place| ["x_mm", "y_mm"].map(|axis| place[axis].as_f64().unwrap() + 100.0))
+        .collect();
+    for list in [&mut middles, &mut stated] {
+        list.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    }
+    for (middle, stated) in middles.iter().zip(&stated) {
+        assert_near(middle[0], stated[0], 0.11);
+        assert_near(middle[1], stated[1], 0.11);
+    }
+    let of_balls = bodies.iter().filter(|[low, high]| {
+        assert_near(low[2], 0.0, 1e-4);
+        (high[2] - 7.0).abs() < 1e-4
+    });
+    assert_eq!(of_balls.count(), 2);
+}
+
+/// The first facet of a body, by a path of facets.
+fn root(body: &mut [usize], mut it: usize) -> usize {
+    while body[it] != it {
+        body[it] = body[body[it]];
+        it = body[it];
+    }
+    it
+}
+
+/// The boxes around bodies whose facets share corners.
+fn boxes(positions: &[f32]) -> Vec<[[f64; 3]; 2]> {
+    let facets: Vec<&[f32]> = positions.chunks_exact(9).collect();
+    let mut body: Vec<usize> = (0..facets.len()).collect();
+    let mut owner = std::collections::HashMap::new();
+    for (place, facet) in facets.iter().enumerate() {
+        for corner in facet.chunks_exact(3) {
+            let key = [corner[0], corner[1], corner[2]].map(f32::to_bits);
+            let other = *owner.entry(key).or_insert(place);
+            let (a, b) = (root(&mut body, place), root(&mut body, other));
+            body[a] = b;
+        }
+    }
+    let mut found = std::collections::BTreeMap::new();
+    for (place, facet) in facets.iter().enumerate() {
+        let it = found
+            .entry(root(&mut body, place))
+            .or_insert([[f64::INFINITY; 3], [f64::NEG_INFINITY; 3]]);
+        for corner in facet.chunks_exact(3) {
+            for axis in 0..3 {
+                it[0][axis] = it[0][axis].min(f64::from(corner[axis]));
+                it[1][axis] = it[1][axis].max(f64::from(corner[axis]));
+            }
+        }
+    }
+    found.into_values().collect()
+}
+
+#[test]
+fn a_damaged_project_is_refused_by_the_part_that_is_wrong() {
+    let folder = TempDir::new().unwrap();
+    let (ball, project) = (sphere(&folder), path_in(&folder, "plate.3mf"));
+    assert!(small(&["plate", &ball, "-o", &project]).status.success());
+    let mut whole = zip::ZipArchive::new(std::fs::File::open(&project).unwrap()).unwrap();
+    let names = whole.file_names().map(|name| name.unwrap().into_owned());
+    let names: Vec<String> = names.collect();
+    let mut with = |name: &str, replaced: Option<&str>| {
+        let path = path_in(&folder, "damaged.3mf");
+        let mut zip = zip::ZipWriter::new(std::fs::File::create(&path).unwrap());
+        for own in &names {
+            let mut bytes = Vec::new();
+            std::io::copy(&mut whole.by_name(own).unwrap(), &mut bytes).unwrap();
+            let bytes = match replaced {
+                _ if own != name => bytes,
+                Some(text) => text.into(),
+                None => continue,
+            };
+            let options = zip::write::SimpleFileOptions::default();
+            zip.start_file(&**own, options).unwrap();
+            std::io::Write::write_all(&mut zip, &bytes).unwrap();
+        }
+        zip.finish().unwrap();
+        small(&["plan", &path])
+    };
+    let part = "Metadata/cusp/project.json";
+    assert_fails(&with(part, Some("{")), 1, part);
+    assert_fails(
+        &with("Metadata/cusp/model-1.bin", None),
+        1,
+        "Metadata/cusp/model-1.bin",
+    );
+    // Without our part it is a model.
+    assert!(with(part, None).status.success());
 }

@@ -8,7 +8,8 @@ use cusp_slicer::cure::fit;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
-    self, Calibration, Error, Facts, JobOptions, LoadedModel, Options, OptionsError, Stage,
+    self, Calibration, Error, Facts, JobOptions, LoadedModel, Options, OptionsError, Project,
+    ProjectPart, Stage,
 };
 use cusp_slicer::mask::LayerRuns;
 use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
@@ -85,6 +86,47 @@ pub struct Job {
 pub fn identify(head: &[u8], length: f64) -> Result<JsValue, JsValue> {
     let format = read::identify(head, length as u64).map_err(throw)?;
     Ok(to_js(&format))
+}
+
+/// The part of a project as JSON; undefined if the file is no project.
+///
+/// # Errors
+/// Throws a `CuspError` if it is damaged.
+#[wasm_bindgen]
+pub fn project_part(file: &[u8]) -> Result<Option<String>, JsValue> {
+    let part = Project::part_of(file).map_err(throw)?;
+    Ok(part.map(|part| String::from_utf8_lossy(&part).into_owned()))
+}
+
+/// The files of a project: that of each model and that of its weights, in turn; the latter is empty if it has none.
+///
+/// # Errors
+/// Throws a `CuspError` if the project is damaged.
+#[wasm_bindgen]
+pub fn project_files(file: &[u8]) -> Result<Vec<Uint8Array>, JsValue> {
+    let files = Project::files_of(file).map_err(throw)?;
+    let files = files.iter().flat_map(|(file, weights)| [file, weights]);
+    Ok(files.map(|bytes| Uint8Array::from(&**bytes)).collect())
+}
+
+/// Writes a project: options and names, and the files as [`project_files`] returns them.
+///
+/// # Errors
+/// Throws a `CuspError`.
+#[wasm_bindgen]
+#[expect(
+    clippy::needless_pass_by_value,
+    reason = "values from JavaScript come by value"
+)]
+pub fn write_project(part: Ts<ProjectPart>, files: Vec<Uint8Array>) -> Result<Vec<u8>, JsValue> {
+    let files: Vec<_> = files.iter().map(Uint8Array::to_vec).collect();
+    let (files, _) = files.as_chunks::<2>();
+    let project = Project {
+        part: given(&part)?,
+        files: files.iter().map(|[file, _]| file.clone()).collect(),
+        weights: files.iter().map(|[_, weights]| weights.clone()).collect(),
+    };
+    project.to_bytes().map_err(throw)
 }
 
 /// Number of bytes that [`identify`] needs.

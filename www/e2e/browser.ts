@@ -167,3 +167,11 @@ export async function downloaded(page: Page): Promise<{ name: string; bytes: Buf
   const file = await download(page);
   return { name: file.suggestedFilename(), bytes: await readFile(await file.path()) };
 }
+
+/** Searches for a printer, and chooses the first one found. */
+export async function choosePrinter(page: Page, text: string): Promise<void> {
+  const field = page.getByRole("combobox", { name: "Printer", exact: true });
+  await field.click();
+  await field.pressSequentially(text);
+  await field.press("Enter");
+}

@@ -161,7 +161,7 @@ test("what is painted to matter less is planned thicker there and as before else
   expect(reloaded.crc32).toBe(painted.crc32);
 
   // A new model has no weights.
-  await page.getByRole("button", { name: "Example" }).click();
+  await drop(page, { name: "other.stl", bytes: sphere(RADIUS, 24).bytes });
   await expect.poll(() => weights(page)).toBeNull();
   await state(page, "done");
   const plain = await plan(page);

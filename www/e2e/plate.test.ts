@@ -1,8 +1,13 @@
 /** Several models on the page: added, counted, arranged, moved, on several plates, and downloaded. */
+import { execFile } from "node:child_process";
+import { mkdtemp, readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
 import type { Locator, Page } from "playwright-core";
-import { expect, test } from "vitest";
+import { expect, inject, test } from "vitest";
+import { findCusp } from "../examples/shop/cusp.js";
 import { broken } from "./axe.js";
-import { downloaded, drop, openPanel, settled, state, words } from "./browser.js";
+import { choosePrinter, downloaded, drop, dropBeside, openPanel, settled, state, words } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
@@ -22,7 +27,7 @@ test("of files that are dropped together the models stand on one plate, and beco
   await state(page, "done");
   // Without a printer the plate has a usual size.
   await expect.poll(() => page.locator(".model").innerText()).toContain("192 × 120");
-  await page.getByLabel("Printer", { exact: true }).selectOption("mars-4-ultra");
+  await choosePrinter(page, "mars 4 ultra");
   await settled(page);
   expect(await listed(page)).toEqual(["ball.stl", "block.stl"]);
   expect(await words(page)).toContain("each");
@@ -107,3 +112,36 @@ test("a model is added to the open one, which the page keeps from being closed; 
   expect(again.bytes.equals(alone.bytes)).toBe(true);
 });
 
+
+const program = findCusp();
+
+test("a project that is saved gives the same print file in the command line, and the same plate on the page", async (context) => {
+  if (program === null) return context.skip("no native cusp: name it in the variable CUSP, or build it in ../target");
+  const page = await start();
+  await drop(page, ballFile);
+  await state(page, "done");
+  await page.evaluate(() => Object.assign(document.querySelector("cusp-workbench") ?? {}, { query: "printer=mars-4-ultra&tolerance=0.08&supports=light&wall=1.5&height=9" }));
+  await dropBeside(page, blockFile);
+  await page.locator("cusp-plate").getByRole("button", { name: /^One more/ }).first().click();
+  await settled(page);
+  await state(page, "done");
+  const print = await downloaded(page);
+  const [saved] = await Promise.all([page.waitForEvent("download"), page.getByRole("button", { name: "Save project" }).click()]);
+  expect(saved.suggestedFilename()).toBe("ball-project.3mf");
+  const path = await saved.path();
+
+  const folder = await mkdtemp(join(inject("scratch"), "project-"));
+  const project = { name: "ball-project.3mf", bytes: await readFile(path) };
+  await writeFile(join(folder, project.name), project.bytes);
+  await promisify(execFile)(program, ["slice", join(folder, project.name), "--allow-floating", "-o", join(folder, "print.goo")]);
+  expect((await readFile(join(folder, "print.goo"))).equals(print.bytes)).toBe(true);
+
+  const other = await start();
+  await drop(other, project);
+  await other.locator("cusp-plate").waitFor();
+  await settled(other);
+  await state(other, "done");
+  expect(await listed(other)).toEqual(["ball.stl", "block.stl"]);
+  expect(await other.getByLabel("Printer", { exact: true }).inputValue()).toBe("Elegoo Mars 4 Ultra");
+  expect((await downloaded(other)).bytes.equals(print.bytes)).toBe(true);
+});

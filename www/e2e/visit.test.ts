@@ -3,7 +3,7 @@ import { readFile } from "node:fs/promises";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, dropBeside, settled, state } from "./browser.js";
+import { choosePrinter, drop, dropBeside, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -23,7 +23,7 @@ async function visitAgain(page: Page, address = "."): Promise<void> {
 
 test("the printer that a person chose is there at the next visit; what the address asks for wins", async () => {
   const page = await start();
-  await page.getByLabel("Printer", { exact: true }).selectOption("saturn-3-ultra");
+  await choosePrinter(page, "saturn 3 ultra");
   await visitAgain(page);
   expect(await query(page)).toBe("printer=saturn-3-ultra");
   await visitAgain(page, "?printer=photon-mono-m5s");
@@ -162,8 +162,8 @@ test("work is kept, continued by keyboard at the next visit with supports, copie
   expect(await work()).toEqual(before);
 
   // The example is not a file of the user. Other work is listed beside the first.
-  await page.getByRole("button", { name: "Example" }).click();
-  await expect.poll(() => page.locator("cusp-plate").count()).toBe(0);
+  await visitAgain(page);
+  await page.getByRole("button", { name: "Try the example" }).click();
   await state(page, "done");
   await drop(page, cube);
   await state(page, "done");

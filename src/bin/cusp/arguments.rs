@@ -28,7 +28,7 @@ use crate::values::{
 /// Models, and how to slice them.
 #[derive(Args)]
 pub struct Slicing {
-    /// Models: 3MF, OBJ or STL; - is standard input. Or one job file of `cusp plate`
+    /// Models: 3MF, OBJ or STL; - is standard input. Or one job file or project of `cusp plate`
     #[arg(required = true, value_name = "MODEL")]
     pub models: Vec<PathBuf>,
     /// Print one JSON object; for a batch one per model, each on its own line

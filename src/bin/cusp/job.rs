@@ -17,7 +17,7 @@ use crate::usage::wrong_usage;
 /// Models with their copies, and how they would be printed.
 #[derive(Args)]
 pub struct Printing {
-    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file of `cusp plate`
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies; - is standard input. Or one job file or project of `cusp plate`
     #[arg(required = true, value_name = "MODEL[:N]")]
     models: Vec<PathBuf>,
     /// Print one JSON object
@@ -52,8 +52,8 @@ pub struct LoadedJob {
     /// The job file, if there is one.
     file: Option<PathBuf>,
     pub paths: Vec<PathBuf>,
-    /// The file of weights of each model, if it has one.
-    pub weights: Vec<Option<PathBuf>>,
+    /// The models with their paths, as in a job file.
+    pub models: Vec<JobModel>,
     pub job: Job,
     pub options: JobOptions,
 }
@@ -94,8 +94,11 @@ impl LoadedJob {
                 let reading = settings.reading.options;
                 let models = models.iter().map(|model| {
                     let (path, copies) = with_copies(model);
-                    let copies = copies.unwrap_or(places.copies());
-                    JobModel::new(path, copies, &reading)
+                    let own = ModelOptions {
+                        copies: copies.unwrap_or(places.copies()),
+                        ..ModelOptions::default()
+                    };
+                    JobModel::new(path, &own, &reading)
                 });
                 let file = JobFile {
                     models: models.collect(),
@@ -120,7 +123,11 @@ impl LoadedJob {
         Ok(Self {
             file: None,
             paths: vec![model.to_owned()],
-            weights: vec![None],
+            models: vec![JobModel::new(
+                model.to_owned(),
+                &ModelOptions::default(),
+                &settings.reading.options,
+            )],
             job: budget.bound(job, workers),
             options: JobOptions {
                 models: vec![ModelOptions::default()],
@@ -132,8 +139,8 @@ impl LoadedJob {
     fn of(read: LoadedModels, file: &JobFile, settings: &Settings, budget: &Budget) -> Self {
         Self {
             file: None,
+            models: file.models_at(&read.paths, &read.weights),
             paths: read.paths,
-            weights: read.weights,
             job: budget.bound(Job::new(read.models), 1),
             options: JobOptions {
                 options: settings.options.clone(),

@@ -1,15 +1,18 @@
-//! Job files: models, options and places of plates.
+//! Job files: models, options and places of plates. Projects are job files with their models inside.
 
+use std::fs;
 use std::path::{Path, PathBuf};
 
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{LoadedModel, ModelOptions, Options, Placement};
+use cusp_slicer::job::{
+    JobOptions, LoadedModel, ModelOptions, Options, Placement, Project, ProjectModel, ProjectPart,
+};
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{Hollowing, Supporting};
 use serde::{Deserialize, Serialize};
 
-use crate::failure::{Failure, is_standard};
+use crate::failure::{Failure, in_file, is_standard};
 use crate::files::{Reading, WeightsFile, read_json};
 
 /// A job file: models, options and places. Paths are relative to the file.
@@ -30,7 +33,7 @@ pub struct JobFile {
 }
 
 /// A model of a job file.
-#[derive(Serialize, Deserialize, schemars::JsonSchema)]
+#[derive(Clone, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
 pub struct JobModel {
     /// The file.
@@ -71,6 +74,9 @@ pub struct JobModel {
     /// True if bodies that look like supports are parts of the model.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub supports_as_model: bool,
+    /// The contents of the file and its weights, if the job file is a project.
+    #[serde(skip)]
+    inside: Option<(Vec<u8>, Vec<f32>)>,
 }
 
 fn one() -> usize {
@@ -78,24 +84,9 @@ fn one() -> usize {
 }
 
 impl JobModel {
-    pub fn new(file: PathBuf, copies: usize, reading: &ReadOptions) -> Self {
+    pub fn new(file: PathBuf, own: &ModelOptions, reading: &ReadOptions) -> Self {
         Self {
             file,
-            plate: reading.plate_number,
-            surfaces: reading.surfaces,
-            curved_caps: reading.curved_caps,
-            supports_as_model: reading.supports_as_model,
-            ..Self::of(&ModelOptions {
-                copies,
-                ..ModelOptions::default()
-            })
-        }
-    }
-
-    /// A model without a file.
-    pub fn of(own: &ModelOptions) -> Self {
-        Self {
-            file: PathBuf::new(),
             copies: own.copies,
             rotation: own.rotation,
             height_mm: own.height_mm,
@@ -104,11 +95,27 @@ impl JobModel {
             tolerance: own.tolerance,
             ranges: own.ranges.clone(),
             weights: None,
-            plate: None,
-            surfaces: false,
-            curved_caps: false,
-            supports_as_model: false,
+            plate: reading.plate_number,
+            surfaces: reading.surfaces,
+            curved_caps: reading.curved_caps,
+            supports_as_model: reading.supports_as_model,
+            inside: None,
         }
+    }
+
+    /// The same model with options of its own.
+    pub fn with_own(&self, own: &ModelOptions) -> Self {
+        Self {
+            weights: self.weights.clone(),
+            inside: self.inside.clone(),
+            ..Self::new(self.file.clone(), own, &self.reading())
+        }
+    }
+
+    /// Makes its paths valid from the folder of a job file.
+    pub fn relate_to(&mut self, job_file: &Path) {
+        self.file = path_from(job_file, &self.file);
+        self.weights = self.weights.take().map(|path| path_from(job_file, &path));
     }
 
     /// Choices for reading it.
@@ -119,6 +126,38 @@ impl JobModel {
             curved_caps: self.curved_caps,
             supports_as_model: self.supports_as_model,
         }
+    }
+
+    /// The path of the file, which is relative to this folder; of a model of a project its name.
+    fn path(&self, folder: Option<&Path>) -> PathBuf {
+        within(folder.filter(|_| self.inside.is_none()), &self.file)
+    }
+
+    /// The file, whose path is relative to this folder.
+    pub fn bytes(&self, folder: Option<&Path>) -> Result<Vec<u8>, Failure> {
+        let path = self.path(folder);
+        match &self.inside {
+            Some((file, _)) => Ok(file.clone()),
+            None => Ok(fs::read(&path).map_err(|error| in_file(&path, &error))?),
+        }
+    }
+
+    /// Reads it with its weights.
+    fn load(&self, folder: Option<&Path>) -> Result<LoadedModel, Failure> {
+        let path = self.path(folder);
+        let options = self.reading();
+        let Some((file, weights)) = &self.inside else {
+            let weights = self.weights.as_deref();
+            let weights = weights.map(|path| WeightsFile::read(&within(folder, path)));
+            let weights = weights.transpose()?;
+            return Reading { weights, options }.load(&path);
+        };
+        let painted = (!weights.is_empty()).then(|| weights.clone());
+        let loaded = LoadedModel::read_with(file, &options).and_then(|mut loaded| {
+            loaded.set_weights(painted)?;
+            Ok(loaded)
+        });
+        loaded.map_err(|error| Failure::in_file(&path, &error))
     }
 
     pub fn own(&self) -> ModelOptions {
@@ -135,11 +174,17 @@ impl JobModel {
 }
 
 impl JobFile {
-    /// The job file, if the only argument is one: JSON, by its name.
+    /// The job file, if the only argument is one: JSON by its name, or a project.
     pub fn of(models: &[PathBuf]) -> Result<Option<Self>, Failure> {
         let [path] = models else {
             return Ok(None);
         };
+        if is_named_as_project(path) {
+            // A file that cannot be read is reported as a model.
+            let project = Project::read(&fs::read(path).unwrap_or_default());
+            let project = project.map_err(|error| Failure::in_file(path, &error))?;
+            return Ok(project.map(Self::from));
+        }
         let is_json = path
             .extension()
             .is_some_and(|end| end.eq_ignore_ascii_case("json"));
@@ -153,18 +198,90 @@ impl JobFile {
     pub fn read_models(&self, folder: Option<&Path>) -> Result<LoadedModels, Failure> {
         let mut read = LoadedModels::default();
         for model in &self.models {
-            let path = within(folder, &model.file);
+            read.models.push(model.load(folder)?);
             let weights = model.weights.as_deref();
-            let weights = weights.map(|path| within(folder, path));
-            let reading = Reading {
-                weights: weights.as_deref().map(WeightsFile::read).transpose()?,
-                options: model.reading(),
-            };
-            read.models.push(reading.load(&path)?);
-            read.weights.push(weights);
-            read.paths.push(path);
+            read.weights.push(weights.map(|path| within(folder, path)));
+            read.paths.push(model.path(folder));
         }
         Ok(read)
+    }
+
+    /// The models with these paths of their files and weights.
+    pub fn models_at(&self, paths: &[PathBuf], weights: &[Option<PathBuf>]) -> Vec<JobModel> {
+        let at = self.models.iter().zip(paths.iter().zip(weights));
+        at.map(|(model, (path, weights))| JobModel {
+            file: path.clone(),
+            weights: weights.clone(),
+            ..model.clone()
+        })
+        .collect()
+    }
+
+    /// Returns true if the models are inside, as those of a project.
+    pub fn is_project(&self) -> bool {
+        self.models.iter().any(|model| model.inside.is_some())
+    }
+
+    /// The project of this job, whose paths are relative to the working directory, and whose models are `loaded`.
+    pub fn project(&self, loaded: &[LoadedModel]) -> Result<Project, Failure> {
+        let named = self.models.iter().map(|model| ProjectModel {
+            name: model
+                .file
+                .file_name()
+                .unwrap_or_default()
+                .to_string_lossy()
+                .into_owned(),
+            reading: model.reading(),
+        });
+        let mut project = Project {
+            part: ProjectPart {
+                job: JobOptions {
+                    options: self.options.clone(),
+                    models: self.models.iter().map(JobModel::own).collect(),
+                    arranging: self.arranging,
+                    placements: self.placements.clone(),
+                },
+                models: named.collect(),
+                form: String::new(),
+            },
+            ..Project::default()
+        };
+        for (model, loaded) in self.models.iter().zip(loaded) {
+            project.files.push(model.bytes(None)?);
+            let weights = loaded.painted().unwrap_or_default().iter();
+            let bytes = weights.flat_map(|weight| weight.to_le_bytes());
+            project.weights.push(bytes.collect());
+        }
+        Ok(project)
+    }
+}
+
+impl From<Project> for JobFile {
+    fn from(project: Project) -> Self {
+        let Project {
+            part: ProjectPart { job, models, .. },
+            files,
+            weights,
+        } = project;
+        let floats = |bytes: Vec<u8>| {
+            let (floats, _) = bytes.as_chunks::<4>();
+            floats.iter().copied().map(f32::from_le_bytes).collect()
+        };
+        let inside = files.into_iter().zip(weights.into_iter().map(floats));
+        let models = models.into_iter().zip(inside).enumerate();
+        let models = models.map(|(place, (ProjectModel { name, reading }, inside))| {
+            let own = job.models.get(place).cloned().unwrap_or_default();
+            JobModel {
+                inside: Some(inside),
+                ..JobModel::new(name.into(), &own, &reading)
+            }
+        });
+        Self {
+            models: models.collect(),
+            options: job.options,
+            arranging: job.arranging,
+            placements: job.placements,
+        }
     }
 }
 
@@ -193,9 +310,15 @@ pub fn with_copies(model: &Path) -> (PathBuf, Option<usize>) {
     )
 }
 
+/// Returns true if a path ends as that of a project.
+pub fn is_named_as_project(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|end| end.eq_ignore_ascii_case("3mf"))
+}
+
 /// A path that is valid from the folder of a job file, too.
-pub fn path_from(job_file: Option<&Path>, path: &Path) -> PathBuf {
-    let folder = job_file.and_then(Path::parent);
+fn path_from(job_file: &Path, path: &Path) -> PathBuf {
+    let folder = job_file.parent();
     let is_here = folder.is_none_or(|folder| folder.as_os_str().is_empty());
     if is_here || path.is_absolute() {
         path.to_owned()

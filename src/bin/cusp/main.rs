@@ -85,7 +85,7 @@ enum Command {
     /// Write the exact section of each layer as polygons, for tool paths of other processes
     #[command(allow_negative_numbers = true)]
     Contours(Contouring),
-    /// Arrange models on plates, and write a job file that `cusp slice` takes
+    /// Arrange models on plates, and write a job file or a project that other commands take
     #[command(allow_negative_numbers = true)]
     Plate(Plating),
     /// Show how layers, time and error depend on each other

@@ -7,24 +7,24 @@ use clap::Args;
 
 use crate::arguments::{Choices, Places};
 use crate::budget::Budget;
-use crate::failure::Failure;
+use crate::failure::{Failure, in_file};
 use crate::files::Output;
 use crate::job::LoadedJob;
-use crate::job_file::{JobFile, JobModel, path_from};
+use crate::job_file::{JobFile, is_named_as_project};
 use crate::terminal::{print, print_json};
 
 /// Models to arrange.
 #[derive(Args)]
 pub struct Plating {
-    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies. Or one job file, to arrange it again
+    /// Models: 3MF, OBJ or STL; MODEL:3 is three copies. Or one job file or project, to arrange it again
     #[arg(required = true, value_name = "MODEL[:N]")]
     models: Vec<PathBuf>,
     #[command(flatten)]
     budget: Budget,
     #[command(flatten)]
     places: Places,
-    /// Job file to write, which `cusp slice` and `cusp plan` take in place of models
-    #[arg(short, long, value_name = "FILE.json")]
+    /// Job file to write, which other commands take in place of models; or a project, a 3MF with the models inside
+    #[arg(short, long, value_name = "FILE.json|3mf")]
     output: Option<PathBuf>,
     /// Print the job file
     #[arg(long)]
@@ -33,7 +33,7 @@ pub struct Plating {
     choices: Choices,
 }
 
-/// Arranges models, and writes the job file.
+/// Arranges models, and writes the job file or the project.
 pub fn plate(plating: &Plating) -> Result<(), Failure> {
     plating.budget.keep();
     plating.choices.check("plate");
@@ -46,23 +46,31 @@ pub fn plate(plating: &Plating) -> Result<(), Failure> {
     job.options.placements.clear();
     let placements = job.job.arrange(&job.options);
     let placements = placements.map_err(|error| job.failure(&error))?;
-    let beside = plating.output.as_deref();
-    let models = (0..job.paths.len()).map(|model| JobModel {
-        weights: job.weights[model]
-            .as_deref()
-            .map(|path| path_from(beside, path)),
-        file: path_from(beside, &job.paths[model]),
-        ..JobModel::of(&job.options.models[model])
-    });
-    let written = JobFile {
+    let models = job.models.iter().zip(&job.options.models);
+    let models = models.map(|(model, own)| model.with_own(own));
+    let mut written = JobFile {
         models: models.collect(),
         options: job.options.options.clone(),
         arranging: job.options.arranging,
         placements: placements.clone(),
     };
-    if let Some(output) = output {
-        let mut bytes = serde_json::to_vec_pretty(&written).map_err(|error| error.to_string())?;
-        bytes.push(b'\n');
+    if let Some((output, path)) = output.zip(plating.output.as_deref()) {
+        let bytes = if is_named_as_project(path) {
+            let project = written.project(job.job.models())?.to_bytes();
+            project.map_err(|error| job.failure(&error))?
+        } else if written.is_project() {
+            let message =
+                "the models of a project are inside it: write another project, -o NAME.3mf";
+            return Err(Failure::from(in_file(path, &message)));
+        } else {
+            for model in &mut written.models {
+                model.relate_to(path);
+            }
+            let mut bytes =
+                serde_json::to_vec_pretty(&written).map_err(|error| error.to_string())?;
+            bytes.push(b'\n');
+            bytes
+        };
         output.write_bytes(&bytes)?;
     }
     if plating.json {

@@ -22,7 +22,7 @@ use crate::watch::stop_on_interrupt;
 /// Models and a print file of them.
 #[derive(Args)]
 pub struct Simulating {
-    /// All models that it prints, in their order: 3MF, OBJ or STL. Or one job file of `cusp plate`
+    /// All models that it prints, in their order: 3MF, OBJ or STL. Or one job file or project of `cusp plate`
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
     /// Print file in any format that `cusp inspect` reads, from any program
@@ -68,13 +68,15 @@ impl Originals {
         };
         let Some(file) = JobFile::of(&simulating.models)? else {
             for path in &simulating.models {
-                originals.add(path.clone(), &ReadOptions::default())?;
+                let bytes = fs::read(path).map_err(|error| in_file(path, &error))?;
+                originals.add(path.clone(), &bytes, &ReadOptions::default())?;
             }
             return Ok(originals);
         };
         let folder = simulating.models[0].parent();
         for model in &file.models {
-            originals.add(within(folder, &model.file), &model.reading())?;
+            let bytes = model.bytes(folder)?;
+            originals.add(within(folder, &model.file), &bytes, &model.reading())?;
         }
         let shared = Pose {
             rotation: file.options.rotation,
@@ -96,9 +98,8 @@ impl Originals {
         Ok(originals)
     }
 
-    fn add(&mut self, path: PathBuf, options: &ReadOptions) -> Result<(), Failure> {
-        let bytes = fs::read(&path).map_err(|error| in_file(&path, &error))?;
-        let contents = read::read_with(&bytes, options).map_err(|error| in_file(&path, &error))?;
+    fn add(&mut self, path: PathBuf, bytes: &[u8], options: &ReadOptions) -> Result<(), Failure> {
+        let contents = read::read_with(bytes, options).map_err(|error| in_file(&path, &error))?;
         let original = Original::of(&contents).map_err(|error| in_file(&path, &error))?;
         self.models.push(original);
         self.paths.push(path);

@@ -35,6 +35,8 @@ export function absentSlicer(): Slicer {
     calibrateCure: reject,
     fitCure: reject,
     printers: reject,
+    readProject: reject,
+    writeProject: reject,
     price: reject,
     warm: nothing,
     rest: nothing,

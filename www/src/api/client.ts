@@ -9,7 +9,7 @@ import { Calls, shed, silent, type Compiled, type Life, type Remote, type Watch,
 import { SlicerError } from "./error.js";
 import { priceItems, type Ordered } from "./price.js";
 import { callback, release } from "./callbacks.js";
-import type { CureFit, Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ReadOptions, Resin, Written } from "./wire.js";
+import type { CureFit, Format, Help, JobOptions, JobReport, KnownPrinter, Limits, OnProgress, Opened, Options, PlatePrintability, Price, Prices, ProfiledPlates, ProjectFiles, ProjectPart, ReadOptions, ReadProject, Resin, Written } from "./wire.js";
 
 /** Importance of each facet, 0 to 1; null: all equal. */
 export type Weights = Float32Array | null;
@@ -184,6 +184,14 @@ export class Client {
       const items = this.#planned.report.plates.flatMap((report) => priceItems(report, copies));
       return life.handle.remote.price(prices, items, finish ?? null);
     });
+  }
+
+  readProject(file: Promise<Blob>, watch: Watch): Promise<ReadProject | null> {
+    return this.#calls.run(watch, file, async (life, file) => life.handle.remote.readProject(file));
+  }
+
+  writeProject(part: ProjectPart, files: readonly ProjectFiles[], watch: Watch): Promise<Uint8Array> {
+    return this.#calls.run(watch, null, async (life) => life.handle.remote.writeProject(part, files));
   }
 
   printers(): Promise<KnownPrinter[]> {

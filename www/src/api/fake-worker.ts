@@ -96,6 +96,8 @@ export function fakeWorker(work: Work = async () => undefined): SlicerWorker {
     calibrateCure: notFaked,
     fitCure: () => null,
     printers: () => [],
+    readProject: notFaked,
+    writeProject: notFaked,
     price: ({ currency }, items, finish) => {
       say(`price of ${JSON.stringify(items)}, ${finish}`);
       return { currency, total: 1 } as Price;

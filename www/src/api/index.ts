@@ -31,7 +31,7 @@ import type { Ordered } from "./price.js";
 import { CURVE_POINTS, printFile, SCHEMA, type Mask, type PrintFile, type Versioned } from "./results.js";
 import { resolve, stemOf, type Source } from "./source.js";
 import { spawnWorker, wasmAddress, type Assets } from "./spawn.js";
-import type { ArrangeError, Arranging, Candidate, Comparison, CureFit, JobOptions, JobReport, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ReadOptions, Report, Resin, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
+import type { ArrangeError, Arranging, Candidate, Comparison, CureFit, JobOptions, JobReport, KnownPrinter, Limits, MeshInfo, ModelOptions, Options, Placement, PlatePrintability, Preview, Price, Prices, Profiled, ProjectFiles, ProjectPart, ReadOptions, Report, Resin, SearchOptions, SearchResult, Shells, Tradeoff } from "./wire.js";
 
 export { isAbort, SlicerError, type ErrorCode, type ErrorDetails } from "./error.js";
 export type { WarningCode, WarningDetails } from "./warning.js";
@@ -103,6 +103,14 @@ export interface LoadCall extends Watch {
   reading?: ReadOptions;
   /** If true, the result has {@link Loaded.positions}, sooner than by a call of `positions()`. */
   positions?: boolean;
+}
+
+/** Models, options and places that are kept together. */
+export interface Project {
+  /** `job` has the options, and places if copies are not arranged again; `models` have the names of the files. */
+  part: ProjectPart;
+  /** One for each model. */
+  files: readonly ProjectFiles[];
 }
 
 /** Options of a call about a model. */
@@ -222,6 +230,13 @@ export interface Slicer {
    * `cusp verify --prices` computes the same on a server.
    */
   price(prices: Prices, ordered?: Ordered, call?: Watch): Promise<Price>;
+  /** Reads a project, as {@link writeProject} or `cusp plate -o NAME.3mf` writes it; null if the file is none. It changes no model. */
+  readProject(source: Source, call?: Watch): Promise<Project | null>;
+  /**
+   * Writes models with their options and places as a project: a 3MF that also holds the files as they were opened. `cusp` takes it in place
+   * of models, and other programs read it as models in their poses, without supports and voids.
+   */
+  writeProject(project: Project, call?: Watch): Promise<Blob>;
   /** The known printers, whose names `options.printer` accepts. */
   printers(): Promise<KnownPrinter[]>;
   /** Starts the worker early, and has the browser compile the code of a plan once the page is idle. */
@@ -469,6 +484,13 @@ export function createSlicer(setup: Setup = {}): Slicer {
     },
     fitCure: (measured_mm, resin = {}, call = {}) => side.fitCure(measured_mm, resin, call),
     price: (prices, ordered = {}, call = {}) => main.price(prices, ordered, call),
+    async readProject(source, call = {}) {
+      const read = await side.readProject(resolve(source, call.signal).then(({ file }) => file), call);
+      return read === null ? null : { part: JSON.parse(read.part) as ProjectPart, files: read.files };
+    },
+    async writeProject({ part, files }, call = {}) {
+      return new Blob([(await side.writeProject(part, files, call)) as Uint8Array<ArrayBuffer>], { type: "model/3mf" });
+    },
     printers: () => main.printers(),
     warm: () => main.warm(),
     rest() {

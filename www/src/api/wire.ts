@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, SearchOptions, Task };
 export type {
   Arranging,
   Backend,
@@ -136,6 +136,18 @@ export interface Opened {
   positions?: Float32Array;
 }
 
+/** The file of a model of a project as it was opened, and the weights of its facets. */
+export interface ProjectFiles {
+  readonly file: Blob;
+  readonly weights: Float32Array | null;
+}
+
+export interface ReadProject {
+  /** A {@link ProjectPart} as JSON. */
+  part: string;
+  files: ProjectFiles[];
+}
+
 /** Methods of a worker. Models and plates are indexed from 0. */
 export interface SlicerWorker {
   /** Starts the core from its compiled module, or from its URL. Returns the module for the next worker. */
@@ -190,6 +202,9 @@ export interface SlicerWorker {
   /** Print-through by measured bridges; null if there are too few. */
   fitCure(measured_mm: readonly number[], resin: Resin): CureFit | null;
   printers(): KnownPrinter[];
+  /** Part of a project as JSON, with the files of its models; null if the file is no project. */
+  readProject(file: Blob): Promise<ReadProject | null>;
+  writeProject(part: ProjectPart, files: readonly ProjectFiles[]): Promise<Uint8Array>;
   /** Price of an order; needs no model. */
   price(prices: Prices, items: PriceItem[], finish: string | null): Price;
 }

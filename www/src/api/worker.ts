@@ -1,6 +1,6 @@
 /** The worker: the only file that imports the WebAssembly package. It holds one job. */
 import * as Comlink from "comlink";
-import init, { calibrate_cure, calibrate_layers, encode_group, head_bytes, fit_cure, identify, Job, OrientationSearch, price, printers, type InitOutput } from "../../pkg/cusp_slicer.js";
+import init, { calibrate_cure, calibrate_layers, encode_group, head_bytes, fit_cure, identify, Job, OrientationSearch, price, printers, project_files, project_part, write_project, type InitOutput } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
@@ -208,6 +208,23 @@ const api: Remote = {
   fitCure: (measured_mm, resin) => fit_cure(Float64Array.from(measured_mm), resin) ?? null,
   // The core fills in the defaults of its list.
   printers: () => printers() as KnownPrinter[],
+  async readProject(file) {
+    const bytes = await bytesOf(file);
+    const part = project_part(bytes);
+    if (part === undefined) return null;
+    const parts = project_files(bytes);
+    const files = Array.from({ length: parts.length / 2 }, (_, model) => {
+      const [own, weights] = parts.slice(2 * model) as Uint8Array<ArrayBuffer>[];
+      return { file: new Blob(own === undefined ? [] : [own]), weights: weights === undefined || weights.length === 0 ? null : new Float32Array(weights.buffer) };
+    });
+    return { part, files };
+  },
+  async writeProject(part, files) {
+    const bytes: Uint8Array[] = [];
+    for (const { file, weights } of files) bytes.push(await bytesOf(file), new Uint8Array(weights?.slice().buffer ?? 0));
+    const project = own(write_project(part, bytes));
+    return Comlink.transfer(project, [project.buffer]);
+  },
   price(prices, items, finish) {
     const numbers = items.flatMap(({ copies, resin_ml, support_ml = NaN, print_time_s }) => [copies, resin_ml, support_ml, print_time_s]);
     return price(prices, Float64Array.from(numbers), finish);

@@ -8,7 +8,7 @@ import type { Check, Model, Plan, PrintFile } from "../api/index.js";
 import type { Source } from "../api/source.js";
 import type { ModelOptions } from "../api/wire.js";
 import { fetchLanguage, languageOf } from "../texts/index.js";
-import { isFiles } from "./state/choice.js";
+import { isFiles, isNamedAsProject } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { watchGestures } from "./gestures.js";
 import { chosen } from "./parts/chosen.js";
@@ -227,7 +227,7 @@ export abstract class SlicerElement extends SettableElement {
       slicer: this.slicer,
       isDragging: this.dragging,
       picked: this.#picked,
-      added: (event) => void session.add(chosen(event)),
+      added: (event) => void this.take(chosen(event)),
       save: () => void this.#save(),
       saveAll: () => void this.#saveAll(),
       saveTowers: () => void saveMade(session.calibrateLayers()),
@@ -258,7 +258,31 @@ export abstract class SlicerElement extends SettableElement {
 
   /** @internal Adds the models of a drop to the open ones; opens them if none is open or if only one can be. */
   async take(files: readonly File[]): Promise<void> {
+    if (await this.#isProject(files)) return;
     await (this.#hasPlate && this.model !== null ? this.session.add(files) : this.#choose(files));
+  }
+
+  /** @internal True if project files are opened as such, with all their settings. */
+  protected readonly opensProjects: boolean = false;
+
+  /** Opens the only file if it is a project; false if it is none. */
+  async #isProject(files: readonly File[]): Promise<boolean> {
+    const [file] = files;
+    if (!this.opensProjects || file === undefined || files.length > 1 || !isNamedAsProject(file.name)) return false;
+    return this.session.openProject(file);
+  }
+
+  /** @internal Saves the work as a project, unless the page does. */
+  async saveProject(): Promise<void> {
+    await saveMade(this.session.saveProject());
+  }
+
+  /** @internal Names of printers chosen before, the last first, which the list shows first. */
+  get recentPrinters(): readonly string[] {
+    return this.session.recent;
+  }
+  set recentPrinters(names: readonly string[]) {
+    this.session.recent = names;
   }
 
   /** @internal Work that {@link reopen} goes on with, and the number of its set of models; null without a model. */
@@ -287,7 +311,8 @@ export abstract class SlicerElement extends SettableElement {
     return this.shownPanels.has("plate");
   }
 
-  #choose(files: readonly File[]): Promise<Model | null> {
+  async #choose(files: readonly File[]): Promise<Model | null> {
+    if (await this.#isProject(files)) return this.model;
     return this.#hasPlate ? this.session.openAll(files) : this.session.choose(files);
   }
 

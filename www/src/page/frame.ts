@@ -13,6 +13,7 @@ export interface PageActions {
   speak(locale: string): void;
   /** Opens files that the user chose. */
   open(files: readonly File[]): void;
+  saveProject(): void;
   /** Closes the notice. */
   dismiss(): void;
 }
@@ -29,7 +30,7 @@ export interface PrintOnShow {
 
 export function frame(
   language: Language,
-  { example, speak, open, dismiss }: PageActions,
+  { example, speak, open, saveProject, dismiss }: PageActions,
   { print, notice }: { print: PrintOnShow | null; notice: Notice | null },
   visit: Visit,
 ): TemplateResult {
@@ -80,7 +81,7 @@ export function frame(
             ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
           </ul>`}
         </div>
-        <button slot="actions" class="link" @click=${example}>${words.example}</button>
+        <button slot="actions" class="link" @click=${saveProject}>${words.saveProject}</button>
       </cusp-workbench>
     </main>
     ${notice === null ? nothing : noticeBar(notice, words, dismiss)}

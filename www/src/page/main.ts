@@ -41,13 +41,14 @@ function draw(): void {
   const [file] = files ?? [];
   const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files), missing: () => unread(files) };
   document.body.classList.toggle("reading", print !== null);
-  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files), dismiss: () => say(null) };
+  const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files), saveProject: () => void slicer.saveProject(), dismiss: () => say(null) };
   render(frame(language, actions, { print, notice }, visit), place);
 }
 
+/** Shows a notice, whose words are fetched with the first one. */
 function say(said: Notice | null): void {
   notice = said;
-  draw();
+  void fetchRest().then(draw);
 }
 
 /**

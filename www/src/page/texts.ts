@@ -14,7 +14,8 @@ export const pageWords = room("page", {
   noModel: "No model at hand?",
   tryExample: "Try the example",
   printFile: "Look into a print file",
-  example: "Example",
+  /** Saves models, supports, painting and settings as one file. */
+  saveProject: "Save project",
   /** Buttons of the header: work that this browser keeps, named settings, the list of keys. */
   recent: "Recent work",
   saved: "Presets",

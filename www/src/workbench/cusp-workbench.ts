@@ -67,6 +67,8 @@ export class CuspWorkbench extends SlicerElement {
     this.#resized.disconnect();
   }
 
+  protected override readonly opensProjects = true;
+
   protected override layout(facts: Facts): TemplateResult {
     return template(facts, {
       isWide: this.#isWide,

@@ -70,6 +70,27 @@ pub(super) fn read(bytes: &[u8], options: &ReadOptions) -> Result<Contents, Read
     })
 }
 
+/// Reads a part of a zip by its name; `None` if there is no such part, or if the bytes are no zip.
+///
+/// # Errors
+/// [`ThreeMfError`] if the part is damaged or too large.
+pub fn part(bytes: &[u8], name: &str) -> Result<Option<Vec<u8>>, ReadError> {
+    let Ok(package) = Package::new(bytes) else {
+        return Ok(None);
+    };
+    let Some(name) = package.find(name) else {
+        return Ok(None);
+    };
+    let mut part = package.open(name)?;
+    let (mut whole, mut chunk) = (Vec::new(), vec![0; 1 << 16]);
+    loop {
+        match part.read(&mut chunk)? {
+            0 => return Ok(Some(whole)),
+            count => whole.extend_from_slice(&chunk[..count]),
+        }
+    }
+}
+
 /// The part that the package's relationships name as the model.
 fn start(package: &Package<'_>) -> Result<Option<String>, ThreeMfError> {
     let usual = || package.find(USUAL_MODEL).map(str::to_owned);

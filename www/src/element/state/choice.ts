@@ -1,4 +1,4 @@
-/** Choice of the files to open from a drop or a file dialog, and names of weight files. */
+/** Choice of the files to open from a drop or a file dialog, and names of files to save. */
 import { stemOf, type Source } from "../../api/source.js";
 
 export interface Named {
@@ -19,6 +19,12 @@ export function choose<T extends Named>(files: readonly T[]): readonly T[] {
 
 /** Name of a model's weight file: `bunny.weights` for `bunny.stl`. */
 export const weightsName = (model: string): string => `${stemOf(model)}.weights`;
+
+/** Name of the project of a job, after its first model. */
+export const projectName = (model: string): string => `${stemOf(model)}-project.3mf`;
+
+/** Returns true if the name may be that of a project. */
+export const isNamedAsProject = (name: string): boolean => /\.3mf$/i.test(name);
 
 export function isFiles(source: Source | readonly File[]): source is readonly File[] {
   return Array.isArray(source);

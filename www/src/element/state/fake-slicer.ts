@@ -1,7 +1,7 @@
 /** A fake slicer for tests of the session. */
 import { absentSlicer } from "../../api/absent.js";
 import { SlicerError } from "../../api/error.js";
-import { SCHEMA, type Check, type Loaded, type LoadCall, type Mask, type Model, type OrientationReport, type OrientCall, type Ordered, type Plan, type PreviewedPlan, type PrintFile, type Slicer, type TestTowers, type Watch } from "../../api/index.js";
+import { SCHEMA, type Check, type Loaded, type LoadCall, type Mask, type Model, type OrientationReport, type OrientCall, type Ordered, type Plan, type PreviewedPlan, type PrintFile, type Project, type Slicer, type TestTowers, type Watch } from "../../api/index.js";
 import type { Candidate, CureFit, Preview, MeshInfo, Options, Price, Prices, Report, Resin, SearchOptions, Tradeoff } from "../../api/wire.js";
 
 const info = { facets: 1, size_mm: [1, 1, 10], warnings: [] } as unknown as MeshInfo;
@@ -22,6 +22,9 @@ export class FakeSlicer {
   update: Slicer["update"] = absentSlicer().update;
   remove: Slicer["remove"] = absentSlicer().remove;
   problems: Slicer["problems"] = absentSlicer().problems;
+  readonly projects: Project[] = [];
+  readonly writeProject = async (project: Project): Promise<Blob> => new Blob([String(this.projects.push(project))]);
+  readonly readProject = async (): Promise<Project | null> => this.projects.at(-1) ?? null;
   readonly positions = async (): Promise<Float32Array> => new Float32Array(9);
   readonly plugs = async (): Promise<Uint8Array> => new Uint8Array(84);
   readonly saliency = async (): Promise<Float32Array> => new Float32Array(1);

@@ -39,7 +39,7 @@ export interface Setup {
 
 export type SlicerCalls = Pick<
   Slicer,
-  "plan" | "problems" | "mask" | "check" | "export" | "calibrateLayers" | "calibrateCure" | "fitCure" | "tradeoff" | "price" | "printers" | "warm"
+  "plan" | "problems" | "mask" | "check" | "export" | "calibrateLayers" | "calibrateCure" | "fitCure" | "tradeoff" | "price" | "printers" | "readProject" | "writeProject" | "warm"
 > &
   SyncCalls &
   ModelCalls;

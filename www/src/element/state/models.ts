@@ -4,7 +4,7 @@ import type { Model, Plan, Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import type { Options, ReadOptions } from "../../api/wire.js";
 import type { Busy } from "../parts/progress.js";
-import { choose, weightsName } from "./choice.js";
+import { choose, projectName, weightsName } from "./choice.js";
 import type { Download, Host, SlicerCalls } from "./host.js";
 import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Posed } from "./plate.js";
 import { Preferences } from "./preferences.js";
@@ -189,6 +189,30 @@ export abstract class Models extends Preferences {
     for (const { model } of this.plate.entries) this.host.loaded?.(model);
     this.replan();
     return model;
+  }
+
+  /** Opens a file if it is a project; false if it is none. */
+  async openProject(file: File): Promise<boolean> {
+    this.start();
+    try {
+      const project = await this.slicer.readProject(file);
+      if (project === null) return false;
+      const { snapshotIn } = await import("./project.js");
+      await this.reopen(snapshotIn(project, this.settings));
+      return true;
+    } catch (error) {
+      this.refuse(error, file.name);
+      return true;
+    }
+  }
+
+  /** File of the work as a project; null without a model or while a setting is invalid. */
+  async saveProject(): Promise<Download | null> {
+    const { snapshot, options } = this;
+    if (snapshot === null || options === null) return null;
+    const { formOf } = await import("./project.js");
+    const blob = await this.slicer.writeProject(this.plate.project(options, formOf(snapshot)));
+    return { name: projectName(snapshot.models[0]?.name ?? ""), blob };
   }
 
   /** Sets the weights: previews them during a stroke, and plans at its end. */

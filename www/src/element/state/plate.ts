@@ -1,5 +1,5 @@
 /** The models of a session, one of which is selected, and the placements of their copies. The session shows the plan of one plate. */
-import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Watch } from "../../api/index.js";
+import { SCHEMA, type LoadCall, type Mask, type Model, type Ordered, type Plan, type PrintFile, type Project, type Watch } from "../../api/index.js";
 import type { Source } from "../../api/source.js";
 import { FACTS } from "../../api/facts.js";
 import type { ArrangeError, Arranging, ModelOptions, Options, Placement, Price, Prices, Printer, Tradeoff } from "../../api/wire.js";
@@ -197,6 +197,18 @@ export class Plate {
     const { selected, arranging, placed } = this;
     const models = this.entries.map(({ model: { name, file, reading }, copies, pose, weights }) => ({ name, file, reading, copies, pose: poseText(pose), weights }));
     return { models, selected, arranging, placed };
+  }
+
+  /** Models with these options, and the copies where they stand. */
+  project(options: Options, form: string): Project {
+    this.#settle();
+    const { isSeveral, entries, placements, arranging } = this;
+    const { rotation, height_mm, hollow, supports, ...rest } = options;
+    const alone = { ...(rotation && { rotation }), ...(height_mm !== undefined && { height_mm }), ...(hollow && { hollow }), ...(supports && { supports }) };
+    const models = entries.map(({ copies, own }) => (isSeveral ? { copies, ...own } : { copies, ...alone }));
+    const job = { options: isSeveral ? sharedOf(options) : rest, models, arranging, placements: isSeveral ? [...placements] : [] };
+    const named = entries.map(({ model: { name, reading } }) => ({ name, reading }));
+    return { part: { job, models: named, form }, files: entries.map(({ model: { file }, weights }) => ({ file, weights })) };
   }
 
   /** Replaces all models by those of a snapshot. Returns the selected one. */

@@ -1,4 +1,4 @@
-import { expect, test } from "vitest";
+import { expect, test, vi } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import type { Loaded, Plan } from "../../api/index.js";
 import { model, planOf } from "./fake-slicer.js";
@@ -202,7 +202,7 @@ test("models are added with copies and a pose of their own; without an open one,
   expect(session.canUndo).toBe(true);
 });
 
-test("another session goes on with the work: models, copies, poses, weights, placements and settings", async () => {
+test.each([false, true])("another session goes on with the work: models, copies, poses, weights, placements and settings; as a project: %s", async (isProject) => {
   await planned(10);
   plates();
   await session.add([ring]);
@@ -217,9 +217,11 @@ test("another session goes on with the work: models, copies, poses, weights, pla
   const { snapshot, settings } = session;
   if (snapshot === null) throw new Error("no snapshot");
   const before = session.plate.entries;
+  expect((await session.saveProject())?.name).toBe("a-project.3mf");
 
   start();
-  const reopening = session.reopen(snapshot);
+  const reopening = isProject ? session.openProject(new File([], "a-project.3mf")) : session.reopen(snapshot);
+  await vi.advanceTimersByTimeAsync(0);
   slicer.last.resolve(model);
   await reopening;
   await settle();
@@ -230,4 +232,19 @@ test("another session goes on with the work: models, copies, poses, weights, pla
   expect(session.plate.placed.map(({ x_mm }) => x_mm)).toEqual([0, 12, 20, 30]);
   expect(session.snapshot).toEqual({ ...snapshot, models: snapshot.models.map((it, i) => ({ ...it, file: session.plate.entries[i]?.model.file })) });
   expect(session.canUndo).toBe(false);
+});
+
+test("a project of another program gives its models, copies, poses and places, its printer and its tolerance", async () => {
+  plates();
+  const own = [{ copies: 2, height_mm: 7 }, { rotation: [0, 0, 1, 0] as [number, number, number, number] }];
+  const job = { options: { printer: "mars-4-ultra", tolerance: 0.04, metric: "cusp" as const }, models: own, placements: [{ model: 0, x_mm: 1, y_mm: 2 }] };
+  slicer.projects.push({ part: { job, models: [{ name: "cup.stl" }, { name: "ring.stl" }] }, files: [{ file: new Blob(["cup"]), weights: null }, { file: new Blob(["ring"]), weights: null }] });
+  const opening = session.openProject(new File([], "job.3mf"));
+  await vi.advanceTimersByTimeAsync(0);
+  slicer.last.resolve({ ...model, name: "cup.stl" });
+  expect(await opening).toBe(true);
+  await settle();
+  expect(session.settings).toMatchObject({ printer: "mars-4-ultra", tolerances: { cusp: "0.04" }, height: "7" });
+  expect(session.plate.entries.map(({ copies, own }) => ({ copies, ...own }))).toEqual([{ copies: 2, height_mm: 7 }, { copies: 1, rotation: [0, 0, 1, 0] }]);
+  expect(session.plate.placed).toEqual(job.placements);
 });
