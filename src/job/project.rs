@@ -57,6 +57,9 @@ pub struct ProjectModel {
     pub reading: ReadOptions,
 }
 
+/// The file of a model, and its weights; these are empty if it has none.
+pub type ModelBytes = (Vec<u8>, Vec<u8>);
+
 impl Project {
     /// Reads a project; `None` if the bytes are none.
     ///
@@ -86,7 +89,7 @@ impl Project {
     ///
     /// # Errors
     /// [`Error::Read`] if the project is damaged.
-    pub fn files_of(bytes: &[u8]) -> Result<Vec<(Vec<u8>, Vec<u8>)>, Error> {
+    pub fn files_of(bytes: &[u8]) -> Result<Vec<ModelBytes>, Error> {
         let mut files = Vec::new();
         while let Some(file) = read::threemf::part(bytes, &file_name(files.len() + 1))? {
             let weights = read::threemf::part(bytes, &weights_name(files.len() + 1))?;

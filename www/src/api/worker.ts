@@ -221,7 +221,7 @@ const api: Remote = {
   },
   async writeProject(part, files) {
     const bytes: Uint8Array[] = [];
-    for (const { file, weights } of files) bytes.push(await bytesOf(file), new Uint8Array(weights?.slice().buffer ?? 0));
+    for (const { file, weights } of files) bytes.push(await bytesOf(file), new Uint8Array(weights?.slice().buffer ?? []));
     const project = own(write_project(part, bytes));
     return Comlink.transfer(project, [project.buffer]);
   },

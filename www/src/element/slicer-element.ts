@@ -182,6 +182,11 @@ export abstract class SlicerElement extends SettableElement {
    */
   async thumbnail(size_px = THUMBNAIL_PX): Promise<Blob> {
     await this.plan();
+    return this.lastThumbnail(size_px);
+  }
+
+  /** @internal The same of the last plan, without a new one. */
+  async lastThumbnail(size_px: number): Promise<Blob> {
     const { result } = this;
     if (result === null) throw new SlicerError("no-plan", "plan the layers first");
     const { plate } = this.session;

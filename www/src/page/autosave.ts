@@ -5,7 +5,7 @@ import type { Snapshot } from "../element/state/snapshot.js";
 import { hasKept, isKeeping, setKeeping } from "./keeping.js";
 
 /** The part of the element used here. */
-type Worked = Pick<SlicerElement, "work" | "state" | "thumbnail" | "addEventListener">;
+type Worked = Pick<SlicerElement, "work" | "state" | "lastThumbnail" | "addEventListener">;
 
 /** Events after which the work may have changed. */
 const EVENTS = ["cusp-load", "cusp-change", "cusp-paint", "cusp-plan"] as const satisfies readonly (keyof CuspSlicerEvents)[];
@@ -79,7 +79,7 @@ export class Autosave {
       this.#hasFailed = false;
       if (this.#element.state !== "done" || (await works.picture(kept)) !== null) return;
       // Without WebGL, there is no picture.
-      await this.#element.thumbnail(PICTURE_PX).then((png) => works.setPicture(kept, png)).catch(() => undefined);
+      await this.#element.lastThumbnail(PICTURE_PX).then((png) => works.setPicture(kept, png)).catch(() => undefined);
     } catch {
       this.#fail(name);
     }

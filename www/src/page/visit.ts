@@ -92,7 +92,7 @@ export class Visit {
   start(asked: string): void {
     const element = this.#host.element();
     remember(element, asked);
-    if (this.#canKeep) element.addEventListener("cusp-load", () => void (this.#arriving ??= this.#fetchAutosave()));
+    if (this.#canKeep) element.addEventListener("cusp-load", () => void (this.#arriving ??= this.#asked(() => this.#fetchAutosave())));
     element.addEventListener("cusp-plan", () => {
       // If nothing can be stored, every visit would look like the first, so the tour is not shown.
       if (readKept("tour") === null && writeKept("tour", "shown")) this.#tour().catch(() => undefined);
@@ -141,14 +141,9 @@ export class Visit {
 
   /** Fetches what keeps the work, with the first model. */
   async #fetchAutosave(): Promise<void> {
-    try {
-      const { Autosave } = await import("./autosave.js");
-      this.#autosave = new Autosave(this.#host.element(), (name) => this.#host.say({ says: "notKept", name }));
-      this.#autosave.changed();
-    } catch {
-      this.#arriving = null;
-      this.#host.say({ says: "part" });
-    }
+    const { Autosave } = await import("./autosave.js");
+    this.#autosave = new Autosave(this.#host.element(), (name) => this.#host.say({ says: "notKept", name }));
+    this.#autosave.changed();
   }
 
   async #fetchRecent(): Promise<void> {

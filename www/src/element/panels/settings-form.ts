@@ -52,8 +52,6 @@ interface Choosing {
   value?: string;
   /** Handles a choice that does not set the setting directly. */
   change?: (value: string) => void;
-  /** Full name of the selected option, if it may be too long for the list. */
-  title?: string;
 }
 
 /** Optional parts of a text field. */
@@ -114,6 +112,10 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     if (this.#openAtFirst !== null && !changed.has("fields")) return;
     const isSet = (key: keyof Settings): boolean => this.settings[key] !== DEFAULT_SETTINGS[key];
     this.#openAtFirst = { more: MORE.some((key) => (key !== "wall" || this.fields === "all") && isSet(key)), sizes: SIZES.some(isSet) };
+  }
+
+  override updated(changed: PropertyValues<this>): void {
+    if (changed.has("search")) this.renderRoot.querySelector("[role=option].active")?.scrollIntoView({ block: "nearest" });
   }
 
   override render(): TemplateResult {
@@ -230,7 +232,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { settings: { resin: chosen }, offered: { resins } } = this;
     const words = this.language.texts.settings;
     const list = options([["", words.resinUsual], ...resins.map(({ name = "" }) => [name, name] as const)], chosen);
-    return this.#select("resin", words.resin, list, { title: chosen });
+    return this.#select("resin", words.resin, list);
   }
 
   /** What the resin has of its own, to be used unless another value is typed. */
@@ -419,7 +421,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  #select(key: Choice, label: string, list: unknown, { hint = "", value, change, title = "" }: Choosing = {}): TemplateResult {
+  #select(key: Choice, label: string, list: unknown, { hint = "", value, change }: Choosing = {}): TemplateResult {
     const isFixed = this.fixed.has(key);
     const say = change ?? ((value: string): void => this.#say({ [key]: value }));
     const words = this.#hint(hint, isFixed);
@@ -428,7 +430,6 @@ export class CuspSettings extends elementWith(PROPERTIES) {
       <div class="box list">
         <select
           id=${key}
-          title=${title === "" ? nothing : title}
           aria-describedby=${words === "" ? nothing : `${key}-hint`}
           ?disabled=${isFixed}
           .value=${live(value ?? this.settings[key])}

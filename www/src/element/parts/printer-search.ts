@@ -81,7 +81,7 @@ export function printerSearch({ search, chosen, value, isFixed, describedBy, lan
         spellcheck="false"
         aria-autocomplete="list"
         aria-expanded=${search === null ? "false" : "true"}
-        aria-controls="printers"
+        aria-controls=${search === null ? nothing : "printers"}
         aria-activedescendant=${search === null || search.active < 0 ? nothing : `printer-${search.active}`}
         aria-describedby=${describedBy ?? nothing}
         title=${chosen}
@@ -95,7 +95,7 @@ export function printerSearch({ search, chosen, value, isFixed, describedBy, lan
       />
     </div>
     ${search === null
-      ? html`<ul id="printers" role="listbox" hidden></ul>`
+      ? nothing
       : html`<ul id="printers" role="listbox" aria-label=${words.printer} @pointerdown=${(event: Event) => event.preventDefault()}>
           ${entries.map(
             ({ value: own, name, layers, source }, place) => html`<li
@@ -126,22 +126,18 @@ export const printerSearchStyles = css`
     border-radius: 6px;
     cursor: pointer;
   }
-  [role="option"]:hover,
-  [role="option"].active {
-    background: var(--cusp-page);
-  }
-  [role="option"].active {
+  .active {
     outline: 2px solid var(--cusp-focus);
   }
-  [role="option"][aria-selected="true"] {
+  [aria-selected="true"] {
     font-weight: 600;
   }
-  [role="option"] small {
+  small {
     display: block;
     color: var(--cusp-quiet);
     font-weight: 400;
   }
-  [role="option"] small.yes {
+  .yes {
     color: var(--cusp-good);
   }
 `;
