@@ -57,6 +57,7 @@ mod parallel;
 pub mod progress;
 mod union_find;
 mod ways;
+mod xml;
 
 pub mod filament;
 pub mod format;

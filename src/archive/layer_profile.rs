@@ -5,15 +5,10 @@
 //! profile, a little above the layer's bottom, and stops where the middle of a layer would be above the model. A profile with
 //! two points for each layer, at its bottom and at its top, therefore gives exactly the layers of the plan.
 
-use std::io::{self, BufWriter, Write};
-
-use flate2::Compression;
-use flate2::write::DeflateEncoder;
-use rawzip::{CompressionMethod, DataDescriptorOutput, ZipArchiveWriter};
+use std::io::Write;
 
 use super::ArchiveError;
-use super::zip::MODIFIED;
-use crate::crc::Crc32;
+use super::threemf::{HEAD, add, begin, write_facets, write_vertices};
 use crate::filament::FilamentSlicer;
 use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
@@ -28,24 +23,6 @@ pub struct LayeredModel<'a> {
     /// Thickness of the first layer as set in the slicer.
     pub first_layer_mm: f64,
 }
-
-const CONTENT_TYPES: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
- <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
- <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
- <Default Extension="txt" ContentType="text/plain"/>
-</Types>
-"#;
-
-const RELATIONSHIPS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
- <Relationship Target="/3D/3dmodel.model" Id="rel-1" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
-</Relationships>
-"#;
-
-const MODEL_HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en-US" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
-"#;
 
 /// Name under which a slicer looks for the profile.
 fn profile_name(slicer: FilamentSlicer) -> &'static str {
@@ -74,7 +51,7 @@ fn application(slicer: FilamentSlicer) -> &'static str {
 pub fn write<W: Write>(
     slicer: FilamentSlicer,
     model: &LayeredModel<'_>,
-    writer: W,
+    mut writer: W,
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
     report(progress, 0.0)?;
@@ -82,14 +59,15 @@ pub fn write<W: Write>(
     let mesh = model.mesh;
     let facets = &mesh.facets[..mesh.classes.model_end() as usize];
     let bounds = mesh.bounds();
-    let mut zip = begin(writer, |file| {
+    let mut zip = begin(&mut writer, &[("txt", "text/plain")], &mut |file| {
         write_mesh(mesh, facets, &bounds, application(slicer), file, progress)
     })?;
-    add(&mut zip, profile_name(slicer), |file| {
+    add(&mut zip, profile_name(slicer), &mut |file| {
         writeln!(file, "object_id=1|{}", model.profile())?;
         Ok(())
     })?;
-    zip.finish().map_err(ArchiveError::write)
+    zip.finish().map_err(ArchiveError::write)?;
+    Ok(writer)
 }
 
 /// Writes all that is printed of a mesh as a 3MF: the model, its voids as bodies inside out, and its supports.
@@ -98,30 +76,15 @@ pub fn write<W: Write>(
 /// [`ArchiveError::Write`], [`ArchiveError::Cancelled`].
 pub fn write_printed<W: Write>(
     mesh: &Mesh,
-    writer: W,
+    mut writer: W,
     progress: &mut Progress<'_>,
 ) -> Result<W, ArchiveError> {
     let (facets, bounds) = (mesh.printed_facets(), mesh.printed_bounds());
-    let zip = begin(writer, |file| {
+    let zip = begin(&mut writer, &[("txt", "text/plain")], &mut |file| {
         write_mesh(mesh, &facets, &bounds, "Cusp", file, progress)
     })?;
-    zip.finish().map_err(ArchiveError::write)
-}
-
-/// The zip with what every 3MF has, and the model that `write_model` writes.
-fn begin<W: Write>(
-    writer: W,
-    write_model: impl FnOnce(&mut dyn Write) -> Result<(), ArchiveError>,
-) -> Result<ZipArchiveWriter<W>, ArchiveError> {
-    let mut zip = ZipArchiveWriter::new(writer);
-    add(&mut zip, "[Content_Types].xml", |file| {
-        Ok(file.write_all(CONTENT_TYPES.as_bytes())?)
-    })?;
-    add(&mut zip, "_rels/.rels", |file| {
-        Ok(file.write_all(RELATIONSHIPS.as_bytes())?)
-    })?;
-    add(&mut zip, "3D/3dmodel.model", write_model)?;
-    Ok(zip)
+    zip.finish().map_err(ArchiveError::write)?;
+    Ok(writer)
 }
 
 impl LayeredModel<'_> {
@@ -180,8 +143,7 @@ fn decimal(millionths: i64) -> String {
 /// Facets and vertices that are written between two reports of progress.
 const CHUNK: usize = 1 << 14;
 
-/// Writes the mesh as XML. Coordinates are the shortest decimals that give the same number in single precision. The object is moved to
-/// where its x and y are not negative, which readers may expect.
+/// Writes the mesh as XML. The object is moved to where its x and y are not negative, which readers may expect.
 fn write_mesh(
     mesh: &Mesh,
     facets: &[[u32; 3]],
@@ -191,7 +153,7 @@ fn write_mesh(
     progress: &mut Progress<'_>,
 ) -> Result<(), ArchiveError> {
     let total = (mesh.vertices.len() + facets.len()) as f64;
-    file.write_all(MODEL_HEAD.as_bytes())?;
+    file.write_all(HEAD.as_bytes())?;
     writeln!(
         file,
         " <metadata name=\"Application\">{application}</metadata>\n <resources>\n  <object id=\"1\" type=\"model\">\n   <mesh>\n    \
@@ -199,11 +161,7 @@ fn write_mesh(
     )?;
     for (chunk, vertices) in mesh.vertices.chunks(CHUNK).enumerate() {
         report(progress, (chunk * CHUNK) as f64 / total)?;
-        for vertex in vertices {
-            // Adding 0 makes -0 plain.
-            let [x, y, z] = vertex.to_array().map(|it| it + 0.0);
-            writeln!(file, "<vertex x=\"{x}\" y=\"{y}\" z=\"{z}\"/>")?;
-        }
+        write_vertices(vertices, file)?;
     }
     file.write_all(b"    </vertices>\n    <triangles>\n")?;
     for (chunk, facets) in facets.chunks(CHUNK).enumerate() {
@@ -211,9 +169,7 @@ fn write_mesh(
             progress,
             (mesh.vertices.len() + chunk * CHUNK) as f64 / total,
         )?;
-        for [a, b, c] in facets {
-            writeln!(file, "<triangle v1=\"{a}\" v2=\"{b}\" v3=\"{c}\"/>")?;
-        }
+        write_facets(facets, file)?;
     }
     let [x, y] = [bounds.min.x, bounds.min.y].map(|it| super::tidy(-it) + 0.0);
     writeln!(
@@ -222,65 +178,4 @@ fn write_mesh(
          <item objectid=\"1\" transform=\"1 0 0 0 1 0 0 0 1 {x} {y} 0\"/>\n </build>\n</model>"
     )?;
     Ok(())
-}
-
-/// Text of coordinates shrinks hardly more at higher levels, which take several times as long.
-const LEVEL: u32 = 3;
-
-/// Adds a file to the zip, deflated while `write` writes it.
-fn add<W: Write>(
-    zip: &mut ZipArchiveWriter<W>,
-    name: &str,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), ArchiveError>,
-) -> Result<(), ArchiveError> {
-    let builder = zip
-        .new_file(name)
-        .compression_method(CompressionMethod::DEFLATE)
-        .last_modified(MODIFIED);
-    let (mut entry, _) = builder.start().map_err(ArchiveError::write)?;
-    let deflater = DeflateEncoder::new(&mut entry, Compression::new(LEVEL));
-    let sum = summed(deflater, write)?;
-    entry.finish(sum).map_err(ArchiveError::write)?;
-    Ok(())
-}
-
-/// Writes all of a file, and sums it up.
-fn summed<W: Write>(
-    deflater: DeflateEncoder<W>,
-    write: impl FnOnce(&mut dyn Write) -> Result<(), ArchiveError>,
-) -> Result<DataDescriptorOutput, ArchiveError> {
-    let mut file = BufWriter::new(Summed::new(deflater));
-    write(&mut file)?;
-    let file = file
-        .into_inner()
-        .map_err(|error| ArchiveError::write(error.error()))?;
-    file.inner.finish()?;
-    Ok(DataDescriptorOutput::new(file.crc.checksum(), file.length))
-}
-
-/// A writer that sums up what passes. Rawzip's has the table of checksums with it: see [`crate::crc`].
-struct Summed<W> {
-    inner: W,
-    crc: Crc32,
-    length: u64,
-}
-
-impl<W> Summed<W> {
-    fn new(inner: W) -> Self {
-        let (crc, length) = (Crc32::default(), 0);
-        Self { inner, crc, length }
-    }
-}
-
-impl<W: Write> Write for Summed<W> {
-    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
-        let count = self.inner.write(bytes)?;
-        self.crc.update(&bytes[..count]);
-        self.length += count as u64;
-        Ok(count)
-    }
-
-    fn flush(&mut self) -> io::Result<()> {
-        self.inner.flush()
-    }
 }

@@ -13,6 +13,7 @@ pub mod read;
 pub mod runs;
 mod schedule;
 mod survey;
+pub(crate) mod threemf;
 mod transfer;
 mod zip;
 
@@ -24,7 +25,6 @@ pub use schedule::{SAME_S, Schedule};
 use serde::Serialize;
 use serde_json::value::RawValue;
 use survey::{Bounds, Survey};
-pub(crate) use zip::{File, write_zip};
 
 use crate::format::Format;
 use crate::mask::{LayerRuns, Run, RunSource};

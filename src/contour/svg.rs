@@ -7,6 +7,7 @@
 use std::io::{self, Write};
 
 use super::{Contours, Heading, shown};
+use crate::xml::escaped;
 
 /// Writes an SVG layer by layer.
 #[derive(Debug)]
@@ -84,19 +85,4 @@ impl<'a, W: Write> Svg<'a, W> {
         self.writer.write_all(b"</svg>\n")?;
         Ok(self.writer)
     }
-}
-
-/// Text, escaped for XML. Characters that XML does not allow are replaced.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '>' => escaped.push_str("&gt;"),
-            control if control.is_control() => escaped.push('\u{fffd}'),
-            other => escaped.push(other),
-        }
-    }
-    escaped
 }

@@ -4,21 +4,21 @@
 //! the same plans and print files, bit for bit. The meshes of the 3MF are for others; they have neither supports nor voids.
 
 use std::fmt::Write as _;
+use std::io::Write;
 
 use glam::{DAffine3, DMat3, DVec3, Vec3};
-use rustc_hash::FxHashMap;
 use serde::{Deserialize, Serialize};
 
 use super::{Error, JobOptions, OptionsError, Placement};
-use crate::archive::{File, write_zip};
+use crate::archive::{ArchiveError, threemf};
 use crate::arrange::TURN_DEG;
 use crate::model::read::threemf::ThreeMfError;
-use crate::model::read::{self, ReadError, ReadOptions, Triangles};
-use crate::model::{MeshError, Pose, rotation_matrix};
+use crate::model::read::{self, ReadError, ReadOptions};
+use crate::model::{MeshError, Pose, rotation_matrix, weld};
+use crate::xml::escaped;
 
 /// Name of the part that makes a 3MF a project.
 const PART: &str = "Metadata/cusp/project.json";
-const MODEL: &str = "3D/3dmodel.model";
 
 /// A job with the files of its models.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -112,26 +112,29 @@ impl Project {
     /// # Errors
     /// [`Error::Read`] and [`Error::Mesh`] if a file is no model, [`Error::Options`], [`Error::Archive`].
     pub fn to_bytes(&self) -> Result<Vec<u8>, Error> {
-        let json = serde_json::to_vec(&self.part).map_err(crate::archive::ArchiveError::write)?;
-        let mut files: Vec<File> = vec![
-            ("[Content_Types].xml".to_owned(), CONTENT_TYPES.into()),
-            ("_rels/.rels".to_owned(), RELATIONSHIPS.into()),
-            (MODEL.to_owned(), self.model()?.into_bytes()),
-            (PART.to_owned(), json),
+        let json = serde_json::to_vec(&self.part).map_err(ArchiveError::write)?;
+        let model = self.model()?;
+        let types = [
+            ("json", "application/json"),
+            ("bin", "application/octet-stream"),
         ];
+        let mut bytes = Vec::new();
+        let mut zip = threemf::begin(&mut bytes, &types, &mut writes(&model))?;
+        threemf::add(&mut zip, PART, &mut writes(&json))?;
         for (number, file) in (1..).zip(&self.files) {
-            files.push((file_name(number), file.clone()));
+            threemf::add(&mut zip, &file_name(number), &mut writes(file))?;
         }
         for (number, weights) in (1..).zip(&self.weights) {
             if !weights.is_empty() {
-                files.push((weights_name(number), weights.clone()));
+                threemf::add(&mut zip, &weights_name(number), &mut writes(weights))?;
             }
         }
-        Ok(write_zip(&files)?)
+        zip.finish().map_err(ArchiveError::write)?;
+        Ok(bytes)
     }
 
     /// The part with the meshes, each an object, and the copies as items.
-    fn model(&self) -> Result<String, Error> {
+    fn model(&self) -> Result<Vec<u8>, Error> {
         let alone = (0..self.files.len()).map(|model| Placement {
             model,
             ..Placement::MIDDLE
@@ -144,20 +147,18 @@ impl Project {
         let resolved = self.part.job.options.resolve()?;
         let volume_mm = resolved.output.printer.as_ref().map(|it| it.volume_mm);
         let [width_mm, depth_mm, _] = volume_mm.unwrap_or([200.0; 3]);
-        let mut text = String::from(HEAD);
+        let mut text = Vec::from(threemf::HEAD);
+        text.extend(b" <metadata name=\"Application\">Cusp</metadata>\n <resources>\n");
         let mut items = String::new();
         for (model, (file, ProjectModel { name, reading })) in
             self.files.iter().zip(&self.part.models).enumerate()
         {
             let contents = read::read_with(file, reading)?;
             let id = model + 1;
-            let _ = writeln!(
-                text,
-                r#"  <object id="{id}" type="model" name="{}"><mesh>"#,
-                escaped(name)
-            );
-            write_mesh(&mut text, &contents.triangles);
-            text.push_str("  </mesh></object>\n");
+            let (vertices, mut facets) = weld(&contents.triangles);
+            // 3MF has no facets that use a vertex twice.
+            facets.retain(|[a, b, c]| a != b && b != c && c != a);
+            write_object(id, name, &vertices, &facets, &mut text)?;
             let own = self.part.job.of_model(model);
             let mut pose = own.pose_over(resolved.sampling.pose);
             if contents.unit.is_some() {
@@ -170,7 +171,7 @@ impl Project {
                     place.y_mm + depth_mm / 2.0,
                     0.0,
                 );
-                let on_plate = standing(&contents.triangles, &turned, middle_mm)?;
+                let on_plate = standing(&vertices, &turned, middle_mm)?;
                 let numbers = on_plate.to_cols_array().map(|number| number.to_string());
                 let _ = writeln!(
                     items,
@@ -179,26 +180,47 @@ impl Project {
                 );
             }
         }
-        let _ = write!(
-            text,
-            " </resources>\n <build>\n{items} </build>\n</model>\n"
-        );
+        text.extend(format!(" </resources>\n <build>\n{items} </build>\n</model>\n").bytes());
         Ok(text)
     }
+}
+
+fn write_object(
+    id: usize,
+    name: &str,
+    vertices: &[Vec3],
+    facets: &[[u32; 3]],
+    text: &mut Vec<u8>,
+) -> Result<(), ArchiveError> {
+    let name = escaped(name).replace('"', "&quot;");
+    writeln!(
+        text,
+        "  <object id=\"{id}\" type=\"model\" name=\"{name}\">\n   <mesh>\n    <vertices>"
+    )?;
+    threemf::write_vertices(vertices, text)?;
+    text.extend(b"    </vertices>\n    <triangles>\n");
+    threemf::write_facets(facets, text)?;
+    text.extend(b"    </triangles>\n   </mesh>\n  </object>\n");
+    Ok(())
+}
+
+/// Writes these bytes as a part.
+fn writes(bytes: &[u8]) -> impl FnMut(&mut dyn Write) -> Result<(), ArchiveError> {
+    |file| Ok(file.write_all(bytes)?)
 }
 
 /// Distance of plates in the 3MF, in widths of a plate.
 const PLATES_APART: f64 = 1.2;
 
 /// The transform that puts a model on the plate in a pose, with the middle of its box at `middle_mm`.
-fn standing(triangles: &Triangles, pose: &Pose, middle_mm: DVec3) -> Result<DAffine3, MeshError> {
+fn standing(vertices: &[Vec3], pose: &Pose, middle_mm: DVec3) -> Result<DAffine3, MeshError> {
     let rotation = match pose.rotation {
         Some(rotation) => rotation_matrix(rotation)?,
         None => DMat3::IDENTITY,
     };
-    let corners = triangles.as_flattened().iter();
-    let (low, high) = corners
-        .map(|corner| rotation * corner.as_dvec3())
+    let (low, high) = vertices
+        .iter()
+        .map(|vertex| rotation * vertex.as_dvec3())
         .fold((DVec3::INFINITY, DVec3::NEG_INFINITY), |(low, high), at| {
             (low.min(at), high.max(at))
         });
@@ -216,51 +238,6 @@ fn standing(triangles: &Triangles, pose: &Pose, middle_mm: DVec3) -> Result<DAff
     ))
 }
 
-/// Writes vertices and triangles, in the order of the file.
-fn write_mesh(text: &mut String, triangles: &Triangles) {
-    let mut vertices: FxHashMap<[u32; 3], usize> = FxHashMap::default();
-    let mut facets = String::new();
-    text.push_str("   <vertices>\n");
-    for corners in triangles {
-        let [a, b, c] = corners.map(|corner: Vec3| {
-            let next = vertices.len();
-            *vertices
-                .entry(corner.to_array().map(f32::to_bits))
-                .or_insert_with(|| {
-                    let _ = writeln!(
-                        text,
-                        r#"<vertex x="{}" y="{}" z="{}"/>"#,
-                        corner.x, corner.y, corner.z
-                    );
-                    next
-                })
-        });
-        // 3MF has no triangles without area by their vertices.
-        if a != b && b != c && c != a {
-            let _ = writeln!(facets, r#"<triangle v1="{a}" v2="{b}" v3="{c}"/>"#);
-        }
-    }
-    text.push_str("   </vertices>\n   <triangles>\n");
-    text.push_str(&facets);
-    text.push_str("   </triangles>\n");
-}
-
-/// Text as the value of an attribute; characters that XML does not have are left out.
-fn escaped(text: &str) -> String {
-    let mut escaped = String::new();
-    for character in text.chars() {
-        match character {
-            '&' => escaped.push_str("&amp;"),
-            '<' => escaped.push_str("&lt;"),
-            '"' => escaped.push_str("&quot;"),
-            '\u{fffe}' | '\u{ffff}' => (),
-            character if character.is_control() => (),
-            character => escaped.push(character),
-        }
-    }
-    escaped
-}
-
 fn file_name(number: usize) -> String {
     format!("Metadata/cusp/model-{number}.bin")
 }
@@ -268,24 +245,3 @@ fn file_name(number: usize) -> String {
 fn weights_name(number: usize) -> String {
     format!("Metadata/cusp/weights-{number}.bin")
 }
-
-const CONTENT_TYPES: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Types xmlns="http://schemas.openxmlformats.org/package/2006/content-types">
- <Default Extension="rels" ContentType="application/vnd.openxmlformats-package.relationships+xml"/>
- <Default Extension="model" ContentType="application/vnd.ms-package.3dmanufacturing-3dmodel+xml"/>
- <Default Extension="json" ContentType="application/json"/>
- <Default Extension="bin" ContentType="application/octet-stream"/>
-</Types>
-"#;
-
-const RELATIONSHIPS: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<Relationships xmlns="http://schemas.openxmlformats.org/package/2006/relationships">
- <Relationship Target="/3D/3dmodel.model" Id="model" Type="http://schemas.microsoft.com/3dmanufacturing/2013/01/3dmodel"/>
-</Relationships>
-"#;
-
-const HEAD: &str = r#"<?xml version="1.0" encoding="UTF-8"?>
-<model unit="millimeter" xml:lang="en" xmlns="http://schemas.microsoft.com/3dmanufacturing/core/2015/02">
- <metadata name="Application">Cusp</metadata>
- <resources>
-"#;

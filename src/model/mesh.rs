@@ -512,7 +512,7 @@ pub(super) fn sixfold_volume([a, b, c]: [DVec3; 3]) -> f64 {
 
 /// Gives equal corners one index, in order of first use. Facets with fewer than three distinct corners
 /// are kept here; the caller drops them.
-fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
+pub(crate) fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let mut index_of = FxHashMap::default();
     index_of.reserve(triangles.len() / 2);
     let mut vertices = Vec::with_capacity(triangles.len() / 2);

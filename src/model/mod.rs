@@ -22,6 +22,7 @@ pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
 pub(crate) use facet_lists::FacetLists;
 pub use file::{FileFacts, ModelFile};
+pub(crate) use mesh::weld;
 pub use mesh::{Bounds, Mesh, MeshError};
 pub(crate) use pose::rotation_matrix;
 pub use pose::{Pose, TURNS};

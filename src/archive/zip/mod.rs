@@ -161,18 +161,6 @@ pub const MODIFIED: UtcDateTime = match UtcDateTime::from_components(1980, 1, 1,
     None => unreachable!(),
 };
 
-/// Writes a zip of these files, each deflated.
-///
-/// # Errors
-/// [`ArchiveError`].
-pub(crate) fn write_zip(files: &[File]) -> Result<Vec<u8>, ArchiveError> {
-    let mut zip = ZipArchiveWriter::new(Vec::new());
-    for (name, bytes) in files {
-        add(&mut zip, name, &deflate(bytes)?)?;
-    }
-    zip.finish().map_err(ArchiveError::write)
-}
-
 /// Adds a file to the zip.
 fn add<W: Write>(
     zip: &mut ZipArchiveWriter<W>,

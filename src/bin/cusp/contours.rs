@@ -116,7 +116,7 @@ fn write(
         .collect();
     let (bounds, layers) = (Copies::bounds(&copies), LayerHeights::of(plan));
     let lattice = Lattice::of(&bounds);
-    let names = job.paths.iter().map(|path| path.file_name());
+    let names = job.models.iter().map(|model| model.file.file_name());
     let names = names.map(|name| name.unwrap_or_default().to_string_lossy());
     let heading = Heading {
         title: &names.collect::<Vec<_>>().join(", "),

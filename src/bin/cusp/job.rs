@@ -51,8 +51,7 @@ impl Printing {
 pub struct LoadedJob {
     /// The job file, if there is one.
     file: Option<PathBuf>,
-    pub paths: Vec<PathBuf>,
-    /// The models with their paths, as in a job file.
+    /// The models as in a job file.
     pub models: Vec<JobModel>,
     pub job: Job,
     pub options: JobOptions,
@@ -122,7 +121,6 @@ impl LoadedJob {
         let job = Job::new(vec![settings.reading.load(model)?]);
         Ok(Self {
             file: None,
-            paths: vec![model.to_owned()],
             models: vec![JobModel::new(
                 model.to_owned(),
                 &ModelOptions::default(),
@@ -139,8 +137,7 @@ impl LoadedJob {
     fn of(read: LoadedModels, file: &JobFile, settings: &Settings, budget: &Budget) -> Self {
         Self {
             file: None,
-            models: file.models_at(&read.paths, &read.weights),
-            paths: read.paths,
+            models: read.files,
             job: budget.bound(Job::new(read.models), 1),
             options: JobOptions {
                 options: settings.options.clone(),
@@ -190,9 +187,9 @@ impl LoadedJob {
 
     /// A failure of the library, whose message names models by their files in place of their numbers.
     pub fn failure(&self, error: &cusp_slicer::Error) -> Failure {
-        match (&self.file, &self.paths[..]) {
+        match (&self.file, &self.models[..]) {
             (Some(file), _) => Failure::in_file(file, error).renamed(|message| self.named(message)),
-            (None, [only]) => Failure::in_file(only, error),
+            (None, [only]) => Failure::in_file(&only.file, error),
             _ if error.code() == "cancelled" => Failure::interrupted(),
             _ => Failure::without_file(error).renamed(|message| {
                 let named = self.named(message);
@@ -207,12 +204,13 @@ impl LoadedJob {
 
     /// The files of all models, of many the first.
     fn names(&self) -> String {
-        let [first, .., last] = &self.paths[..] else {
+        let [first, .., last] = &self.models[..] else {
             return String::new();
         };
-        match self.paths.len() {
-            2 => format!("{} and {}", first.display(), last.display()),
-            count => format!("{} and {} more", first.display(), count - 1),
+        let (first, last) = (first.file.display(), last.file.display());
+        match self.models.len() {
+            2 => format!("{first} and {last}"),
+            count => format!("{first} and {} more", count - 1),
         }
     }
 
@@ -224,8 +222,8 @@ impl LoadedJob {
             let rest = part.trim_start_matches(|it: char| it.is_ascii_digit());
             let number: Option<usize> = part[..part.len() - rest.len()].parse().ok();
             let model = number.and_then(|number| number.checked_sub(1));
-            match model.and_then(|model| self.paths.get(model)) {
-                Some(path) => format!("{}{rest}", path.display()),
+            match model.and_then(|model| self.models.get(model)) {
+                Some(model) => format!("{}{rest}", model.file.display()),
                 None => format!("model {part}"),
             }
         });
@@ -233,7 +231,7 @@ impl LoadedJob {
     }
 
     pub fn name(&self, model: usize) -> std::path::Display<'_> {
-        self.paths[model].display()
+        self.models[model].file.display()
     }
 
     /// Says the warnings about models, which several are named by, and about plates.
@@ -251,7 +249,7 @@ impl LoadedJob {
     }
 
     fn say_of(&self, model: usize, warning: &Warning) {
-        match &self.paths[..] {
+        match &self.models[..] {
             [_] => say(&format!("warning: {warning}")),
             _ => say(&format!("warning: {}: {warning}", self.name(model))),
         }

@@ -2,6 +2,7 @@
 
 use std::fs;
 use std::path::{Path, PathBuf};
+use std::sync::Arc;
 
 use cusp_slicer::arrange::Arranging;
 use cusp_slicer::job::{
@@ -76,7 +77,7 @@ pub struct JobModel {
     pub supports_as_model: bool,
     /// The contents of the file and its weights, if the job file is a project.
     #[serde(skip)]
-    inside: Option<(Vec<u8>, Vec<f32>)>,
+    inside: Option<Arc<(Vec<u8>, Vec<f32>)>>,
 }
 
 fn one() -> usize {
@@ -129,14 +130,23 @@ impl JobModel {
     }
 
     /// The path of the file, which is relative to this folder; of a model of a project its name.
-    fn path(&self, folder: Option<&Path>) -> PathBuf {
+    pub fn path(&self, folder: Option<&Path>) -> PathBuf {
         within(folder.filter(|_| self.inside.is_none()), &self.file)
+    }
+
+    /// The same model with the paths that are relative to this folder.
+    fn at(&self, folder: Option<&Path>) -> Self {
+        Self {
+            file: self.path(folder),
+            weights: self.weights.as_deref().map(|path| within(folder, path)),
+            ..self.clone()
+        }
     }
 
     /// The file, whose path is relative to this folder.
     pub fn bytes(&self, folder: Option<&Path>) -> Result<Vec<u8>, Failure> {
         let path = self.path(folder);
-        match &self.inside {
+        match self.inside.as_deref() {
             Some((file, _)) => Ok(file.clone()),
             None => Ok(fs::read(&path).map_err(|error| in_file(&path, &error))?),
         }
@@ -146,7 +156,7 @@ impl JobModel {
     fn load(&self, folder: Option<&Path>) -> Result<LoadedModel, Failure> {
         let path = self.path(folder);
         let options = self.reading();
-        let Some((file, weights)) = &self.inside else {
+        let Some((file, weights)) = self.inside.as_deref() else {
             let weights = self.weights.as_deref();
             let weights = weights.map(|path| WeightsFile::read(&within(folder, path)));
             let weights = weights.transpose()?;
@@ -194,27 +204,27 @@ impl JobFile {
         read_json(path).map(Some)
     }
 
+    /// Returns true if the only argument is a job file. The models of a project are not read.
+    pub fn is(models: &[PathBuf]) -> Result<bool, Failure> {
+        let [path] = models else {
+            return Ok(false);
+        };
+        if !is_named_as_project(path) {
+            return Ok(Self::of(models)?.is_some());
+        }
+        let part = Project::part_of(&fs::read(path).unwrap_or_default());
+        let part = part.map_err(|error| Failure::in_file(path, &error))?;
+        Ok(part.is_some())
+    }
+
     /// Reads all models, whose paths are relative to this folder.
     pub fn read_models(&self, folder: Option<&Path>) -> Result<LoadedModels, Failure> {
         let mut read = LoadedModels::default();
         for model in &self.models {
             read.models.push(model.load(folder)?);
-            let weights = model.weights.as_deref();
-            read.weights.push(weights.map(|path| within(folder, path)));
-            read.paths.push(model.path(folder));
+            read.files.push(model.at(folder));
         }
         Ok(read)
-    }
-
-    /// The models with these paths of their files and weights.
-    pub fn models_at(&self, paths: &[PathBuf], weights: &[Option<PathBuf>]) -> Vec<JobModel> {
-        let at = self.models.iter().zip(paths.iter().zip(weights));
-        at.map(|(model, (path, weights))| JobModel {
-            file: path.clone(),
-            weights: weights.clone(),
-            ..model.clone()
-        })
-        .collect()
     }
 
     /// Returns true if the models are inside, as those of a project.
@@ -272,7 +282,7 @@ impl From<Project> for JobFile {
         let models = models.map(|(place, (ProjectModel { name, reading }, inside))| {
             let own = job.models.get(place).cloned().unwrap_or_default();
             JobModel {
-                inside: Some(inside),
+                inside: Some(Arc::new(inside)),
                 ..JobModel::new(name.into(), &own, &reading)
             }
         });
@@ -286,7 +296,7 @@ impl From<Project> for JobFile {
 }
 
 /// A path of a job file, which is relative to the folder of the file.
-pub fn within(folder: Option<&Path>, path: &Path) -> PathBuf {
+fn within(folder: Option<&Path>, path: &Path) -> PathBuf {
     folder.map_or_else(|| path.to_owned(), |folder| folder.join(path))
 }
 
@@ -294,9 +304,8 @@ pub fn within(folder: Option<&Path>, path: &Path) -> PathBuf {
 #[derive(Default)]
 pub struct LoadedModels {
     pub models: Vec<LoadedModel>,
-    pub paths: Vec<PathBuf>,
-    /// The file of weights of each, if it has one.
-    pub weights: Vec<Option<PathBuf>>,
+    /// The models as in the job file, with paths that do not depend on its folder.
+    pub files: Vec<JobModel>,
 }
 
 /// A model and its number of copies: `part.stl:3`, unless there is a file of that name.

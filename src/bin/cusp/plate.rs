@@ -89,7 +89,7 @@ pub fn plate(plating: &Plating) -> Result<(), Failure> {
                 .filter(|it| it.plate == plate && it.model == model);
             copies.count()
         };
-        let counts = (0..job.paths.len()).map(|model| (on_plate(model), model));
+        let counts = (0..job.models.len()).map(|model| (on_plate(model), model));
         let named = counts.filter(|(copies, _)| *copies > 0);
         let named = named.map(|(copies, model)| format!("{copies} × {}", job.name(model)));
         let named = named.collect::<Vec<_>>().join(", ");

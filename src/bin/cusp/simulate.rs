@@ -13,7 +13,7 @@ use cusp_slicer::simulation::{
 
 use crate::failure::{Failure, in_file};
 use crate::files::read_resin;
-use crate::job_file::{JobFile, within};
+use crate::job_file::JobFile;
 use crate::progress::Bar;
 use crate::terminal::{print, print_json};
 use crate::values::{length, rotation};
@@ -76,7 +76,7 @@ impl Originals {
         let folder = simulating.models[0].parent();
         for model in &file.models {
             let bytes = model.bytes(folder)?;
-            originals.add(within(folder, &model.file), &bytes, &model.reading())?;
+            originals.add(model.path(folder), &bytes, &model.reading())?;
         }
         let shared = Pose {
             rotation: file.options.rotation,

@@ -83,7 +83,7 @@ pub fn plan(slicing: &Slicing) -> Result<(), Failure> {
 impl Slicing {
     /// Returns true if the models stand on plates: those that are arranged, or those of a job file.
     fn is_plate(&self, command: &str) -> Result<bool, Failure> {
-        let is_file = JobFile::of(&self.models)?.is_some();
+        let is_file = JobFile::is(&self.models)?;
         if !is_file && !self.arrange && self.places.are_given() {
             let message = "--copies, --spacing and --turn are for plates: add --arrange";
             wrong_usage(command, message);
@@ -104,7 +104,7 @@ impl Slicing {
     fn read(&self, command: &str) -> Result<LoadedJob, Failure> {
         let (places, choices) = (&self.places, &self.choices);
         let mut job = LoadedJob::read(command, &self.models, places, choices, &self.budget)?;
-        self.check_meshes(command, job.paths.len());
+        self.check_meshes(command, job.models.len());
         if self.arrange {
             job.arrange()?;
         }
