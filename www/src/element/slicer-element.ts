@@ -264,7 +264,7 @@ export abstract class SlicerElement extends SettableElement {
   /** @internal Adds the models of a drop to the open ones; opens them if none is open or if only one can be. */
   async take(files: readonly File[]): Promise<void> {
     if (await this.#isProject(files)) return;
-    await (this.#hasPlate && this.model !== null ? this.session.add(files) : this.#choose(files));
+    await (this.#hasPlate && this.model !== null ? this.session.add(files) : this.#openModels(files));
   }
 
   /** @internal True if project files are opened as such, with all their settings. */
@@ -317,7 +317,10 @@ export abstract class SlicerElement extends SettableElement {
   }
 
   async #choose(files: readonly File[]): Promise<Model | null> {
-    if (await this.#isProject(files)) return this.model;
+    return (await this.#isProject(files)) ? this.model : this.#openModels(files);
+  }
+
+  #openModels(files: readonly File[]): Promise<Model | null> {
     return this.#hasPlate ? this.session.openAll(files) : this.session.choose(files);
   }
 

@@ -1,7 +1,7 @@
 /** Support for keeping work between visits, which the user may turn off. */
 import { readKept, writeKept } from "./storage.js";
 
-/** False in older Safari and on pages without TLS. Some private windows refuse only later: see `recentModels()`. */
+/** False in older Safari and on pages without TLS. Some private windows refuse only later: see `recentWorks()`. */
 export const canKeep = (): boolean =>
   "createWritable" in (globalThis.FileSystemFileHandle?.prototype ?? {}) && "locks" in navigator && "getDirectory" in navigator.storage;
 

@@ -7,7 +7,7 @@ import { placesOf } from "./collisions.js";
 import type { SlicerCalls } from "./host.js";
 import { DEFAULT_SETTINGS, quaternion, rotationText, type Fault } from "./settings.js";
 import { isEqual } from "./plain.js";
-import { poseIn, poseText, type Pose, type Snapshot } from "./snapshot.js";
+import { poseIn, poseText, type Arrangement, type Pose, type Snapshot } from "./snapshot.js";
 import { Sync } from "./sync.js";
 import { read } from "./typed.js";
 
@@ -37,13 +37,10 @@ export interface Entry extends Required<Posed> {
 }
 
 /** Models, copies and placements as an undo step restores them. */
-export interface PlateState {
+export interface PlateState extends Arrangement {
   /** Number of the set of models, which changes when a model is opened. */
   readonly job: number;
   readonly entries: readonly Entry[];
-  readonly selected: number;
-  readonly arranging: Required<Arranging>;
-  readonly placed: readonly Placement[];
 }
 
 /** A copy on the plate shown. */
@@ -203,10 +200,8 @@ export class Plate {
   project(options: Options, form: string): Project {
     this.#settle();
     const { isSeveral, entries, placements, arranging } = this;
-    const { rotation, height_mm, hollow, supports, ...rest } = options;
-    const alone = { ...(rotation && { rotation }), ...(height_mm !== undefined && { height_mm }), ...(hollow && { hollow }), ...(supports && { supports }) };
-    const models = entries.map(({ copies, own }) => (isSeveral ? { copies, ...own } : { copies, ...alone }));
-    const job = { options: isSeveral ? sharedOf(options) : rest, models, arranging, placements: isSeveral ? [...placements] : [] };
+    const models = entries.map(({ copies, own }) => ({ copies, ...own }));
+    const job = { options: isSeveral ? sharedOf(options) : withoutOwn(options), models, arranging, placements: isSeveral ? [...placements] : [] };
     const named = entries.map(({ model: { name, reading } }) => ({ name, reading }));
     return { part: { job, models: named, form }, files: entries.map(({ model: { file }, weights }) => ({ file, weights })) };
   }
@@ -503,8 +498,14 @@ export function poseOf({ rotation, height_mm }: Pick<Own, "rotation" | "height_m
   return { rotation: unit === null ? "" : rotationText(unit), height: height_mm === undefined ? "" : String(height_mm), points, fill, drains, drain };
 }
 
-/** Options shared by several models: all except pose, void and supports. Without a printer, the plate has a usual size. */
-function sharedOf({ rotation: _rotation, height_mm: _height, hollow: _hollow, supports: _supports, ...shared }: Options): Options {
+/** Options except for pose, void and supports, which belong to a model. */
+function withoutOwn({ rotation: _rotation, height_mm: _height, hollow: _hollow, supports: _supports, ...shared }: Options): Options {
+  return shared;
+}
+
+/** Options shared by several models. Without a printer, the plate has a usual size. */
+function sharedOf(options: Options): Options {
+  const shared = withoutOwn(options);
   if (shared.printer !== undefined) return shared;
   const { rays: _rays, ...rest } = shared;
   const [x_mm, y_mm] = USUAL_VOLUME.volume_mm;

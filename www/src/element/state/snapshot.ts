@@ -2,15 +2,19 @@
 import type { Arranging, Placement, ReadOptions } from "../../api/wire.js";
 import { DEFAULT_SETTINGS, fromAddress, toAddress, type Settings } from "./settings.js";
 
-export interface Snapshot {
-  /** All settings, as a query of any length. */
-  readonly query: string;
-  readonly models: readonly SnapshotModel[];
+/** The selected model, and where copies stand. */
+export interface Arrangement {
   /** Index of the selected model. */
   readonly selected: number;
   readonly arranging: Required<Arranging>;
   /** Where copies stand by hand; empty: as they are arranged. */
   readonly placed: readonly Placement[];
+}
+
+export interface Snapshot extends Arrangement {
+  /** All settings, as a query of any length. */
+  readonly query: string;
+  readonly models: readonly SnapshotModel[];
 }
 
 export interface SnapshotModel {
