@@ -1,7 +1,7 @@
 /** A real headless Chromium, and the actions of a user on the page. */
 import { readFile } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
-import { chromium, type Browser, type BrowserContextOptions, type Download, type Page } from "playwright-core";
+import { chromium, type Browser, type BrowserContextOptions, type Download, type Locator, type Page } from "playwright-core";
 import { program } from "./program.js";
 
 /** The element of the page or of a shop. */
@@ -149,6 +149,14 @@ export async function openPanel(page: Page, name: string): Promise<void> {
   await page.getByRole("tab", { name }).or(page.locator("nav").getByRole("button", { name })).click();
 }
 
+/** The part of a 3-D view that nothing covers; the scene is in its middle. */
+export async function sceneBox(view: Locator): Promise<{ x: number; y: number; width: number; height: number }> {
+  const box = await view.boundingBox();
+  if (box === null) throw new Error("there is no view");
+  const aside = await view.locator(".scene").evaluate((it) => parseFloat(getComputedStyle(it).paddingInlineEnd));
+  return { ...box, width: box.width - aside };
+}
+
 /** Waits until the mask of this layer is shown, counted from 0. */
 export async function maskOf(page: Page, layer: number): Promise<void> {
   await page.waitForSelector(`canvas[data-layer="${layer}"]`);
@@ -170,7 +178,7 @@ export async function downloaded(page: Page): Promise<{ name: string; bytes: Buf
 
 /** Searches for a printer, and chooses the first one found. */
 export async function choosePrinter(page: Page, text: string): Promise<void> {
-  const field = page.getByRole("combobox", { name: "Printer", exact: true });
+  const field = page.getByRole("combobox", { name: /^(Printer|Your printer)$/ });
   await field.click();
   await field.pressSequentially(text);
   await field.press("Enter");

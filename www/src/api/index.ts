@@ -21,10 +21,10 @@
  * rendering, a slicer can be created, but its calls reject with `no-browser`.
  */
 import { absentSlicer } from "./absent.js";
-import type { Compiled, WorkerHandle, Watch } from "./calls.js";
+import { broke, type Compiled, type WorkerHandle, type Watch } from "./calls.js";
 import { ALONE, Client, placeOf, type About, type Job, type Loaded as Held, type Weights } from "./client.js";
 import { checkWhole, SlicerError } from "./error.js";
-import { measure, orient, type OrientCall as Orienting } from "./orient.js";
+import type { OrientCall as Orienting } from "./orient.js";
 import type { Helpers } from "./helpers.js";
 import { Pool } from "./pool.js";
 import type { Ordered } from "./price.js";
@@ -268,6 +268,12 @@ const FEW_WORKERS = 2;
 /** Compiled modules by URL, shared by all slicers of a page. */
 const MODULES = new Map<string, Compiled["module"]>();
 
+/** Fetches the search for orientations, which few slicers need. */
+const fetchSearch = (): Promise<typeof import("./orient.js")> =>
+  import("./orient.js").catch((error: unknown) => {
+    throw broke("start-failed", error);
+  });
+
 export function createSlicer(setup: Setup = {}): Slicer {
   const { assets = null, workers = globalThis.navigator?.hardwareConcurrency ?? FEW_WORKERS } = setup;
   if (setup.spawn === undefined && globalThis.Worker === undefined) return absentSlicer();
@@ -392,9 +398,15 @@ export function createSlicer(setup: Setup = {}): Slicer {
       return { schema: SCHEMA, ...(await main.asks(job(options, call), call, (remote, { options }, progress) => remote.compare(plate, options, progress))) };
     },
     async orient(options = {}, search = {}, call = {}) {
-      return { schema: SCHEMA, ...(await orient(pool, about(call.model), options, search, call)) };
+      const of = about(call.model);
+      const [{ orient }] = await Promise.all([fetchSearch(), of]);
+      return { schema: SCHEMA, ...(await orient(pool, of, options, search, call)) };
     },
-    measure: (options, direction, call = {}) => measure(pool, about(call.model), options, direction, call),
+    async measure(options, direction, call = {}) {
+      const of = about(call.model);
+      const [{ measure }] = await Promise.all([fetchSearch(), of]);
+      return measure(pool, of, options, direction, call);
+    },
     async export(options, call = {}) {
       const { plate = 0 } = call;
       checkWhole("plate", plate);

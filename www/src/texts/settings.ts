@@ -50,6 +50,8 @@ export const settings = {
     nozzle: "Nozzle",
     nozzleHint: "It sets the limits of layers.",
     printer: "Printer",
+    /** The same before a model is open. */
+    yourPrinter: "Your printer",
     noPrinter: "No printer",
     noPrinterHint: "Choose a printer to get a file for it.",
     /** What is known of a printer, beside its name in the list. */

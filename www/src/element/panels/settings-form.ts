@@ -5,19 +5,20 @@
 import { html, nothing, type PropertyValues, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
 import { FACTS, FORMATS, isFilament, usualOf } from "../../api/facts.js";
-import type { CureFit, Format, MeshInfo, ModelUnit, Printer, Resin, SupportStrength } from "../../api/wire.js";
+import type { CureFit, Format, MeshInfo, ModelUnit, Printer, Resin } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { METRIC_NAMES, METRICS } from "../state/metric.js";
 import type { Choice, Problem } from "../state/problem.js";
 import { problemBox, problemStyles } from "../parts/problem-box.js";
 import { adopt, FetchedPanel } from "../parts/part.js";
-import { towersOffer, type TowersState } from "../parts/towers-offer.js";
+import type { TowersState } from "../parts/towers-offer.js";
 import { found, printerSearch, printerSearchStyles, type Entry, type Search } from "../parts/printer-search.js";
 import { formatFor, modelOf, printerOf } from "../state/printer.js";
 import { DEFAULT_SETTINGS, faultWords, nozzleOf, RAYS, unitOf, usualTolerance, withFormat, withNozzle, withPrinter, withTolerance } from "../state/settings.js";
 import type { Faults, Field, Offered, Settings } from "../state/settings.js";
-import { SIZE_FIELDS, usualSize, type SizeField } from "../state/support-sizes.js";
+import { SIZE_FIELDS } from "../state/support-sizes.js";
 import { canonical, localised, read } from "../state/typed.js";
+import type { Form, Typing } from "./rare-settings.js";
 import { settingsStyles } from "../styles/settings-styles.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
@@ -27,7 +28,7 @@ const MORE = ["wall", "minimize", "snap", "step", "bottomExposure", "bottomLayer
 const SIZES = [...SIZE_FIELDS, "raft", "supportLayer"] as const;
 
 /** The fields of a form: all, or those of one step of the workbench. */
-export type Fields = "all" | "hollow" | "supports" | "slice";
+export type Fields = "all" | "printer" | "hollow" | "supports" | "slice";
 
 const STRENGTHS = ["none", "light", "medium", "heavy"] as const;
 
@@ -54,13 +55,6 @@ interface Choosing {
   change?: (value: string) => void;
 }
 
-/** Optional parts of a text field. */
-interface Typing {
-  hint?: string;
-  /** In canonical form, like the value. */
-  placeholder?: string;
-}
-
 const options = (choices: readonly (readonly [value: string, name: string])[], chosen: string): TemplateResult[] =>
   choices.map(([value, name]) => html`<option value=${value} ?selected=${value === chosen}>${name}</option>`);
 
@@ -81,20 +75,22 @@ const PROPERTIES = {
   bridges: given<readonly string[]>([]),
   cureFit: given<CureFit | null>(null),
   language: given(languageOf()),
-  /** True once the table of test bridges was opened. */
-  measures: own(false),
+  /** Groups that were opened. */
+  opened: own<ReadonlySet<Group>>(new Set()),
   /** True while the button that opens a custom printer's description is shown. */
   isOpening: own(false),
   /** Search for a printer; null while the list is closed. */
   search: own<Search | null>(null),
 };
 
-/** Fetched on demand: a resin is measured once. */
-const bridgesCode = new FetchedPanel("bridges", () => import("../parts/bridges-table.js"));
+type Rare = typeof import("./rare-settings.js");
+type Group = "more" | "sizes";
+
+const rareCode = new FetchedPanel<Rare>("settings", () => import("./rare-settings.js"));
 
 export class CuspSettings extends elementWith(PROPERTIES) {
   /** Groups of hidden settings that start expanded; null before the first update. */
-  #openAtFirst: { readonly more: boolean; readonly sizes: boolean } | null = null;
+  #openAtFirst: Readonly<Record<Group, boolean>> | null = null;
   /** The last custom printer. */
   #own: Printer | null = null;
   /** Text of each field as typed, with the resulting setting. */
@@ -121,7 +117,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   override render(): TemplateResult {
     const { fields } = this;
     return html`<form novalidate @submit=${(event: Event) => event.preventDefault()}>
-      ${fields === "hollow" ? this.#hollow() : fields === "supports" ? this.#supports() : this.#slice()}
+      ${fields === "hollow" ? this.#hollow() : fields === "supports" ? this.#supports() : fields === "printer" ? this.#printer() : this.#slice()}
     </form>`;
   }
 
@@ -132,12 +128,10 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const isUniform = settings.planner === "uniform";
     const own = info === null ? "" : info.size_mm[2].toFixed(1);
     return html`
-      ${offered.printers.length === 0 ? nothing : this.#printer()}
-      ${offered.resins.length === 0 ? nothing : this.#resin()}
-      ${isFilament(settings.format) ? nothing : this.#exposure()}
+      ${this.#printer()} ${offered.resins.length === 0 ? nothing : this.#resin()}
       ${this.#radios("planner", words.layers, [["optimal", words.adaptive], ["uniform", words.uniform]], this.#plannerHint())}
       ${isUniform ? this.#field("uniform", words.thickness) : nothing}
-      ${this.#tolerance()}
+      ${this.#tolerance()} ${isFilament(settings.format) ? nothing : this.#exposure()}
       <div class="pair">${this.#field("layerMin", words.thinnest)} ${this.#field("layerMax", words.thickest)}</div>
       ${isUniform ? html`<p class="hint">${words.rangeHint}</p>` : nothing}
       ${this.#field("height", words.height, { placeholder: own })} ${this.#unit()}
@@ -159,7 +153,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
             { hint: words.resolutionHint },
           )
         : nothing}
-      ${this.#more(isUniform)}
+      ${this.#group("more", words.more, ({ rareFields }, form) => rareFields(form))}
     `;
   }
 
@@ -171,8 +165,9 @@ export class CuspSettings extends elementWith(PROPERTIES) {
   }
 
   /** Searchable list of printers. A custom one stays in the list while another is chosen. */
-  #printer(): TemplateResult {
+  #printer(): TemplateResult | typeof nothing {
     const { settings, offered: { printers, recent = [] }, language, isOpening, search } = this;
+    if (printers.length === 0) return nothing;
     const words = language.texts.settings;
     const value = isOpening ? OPEN : typeof settings.printer === "string" ? settings.printer : OWN;
     const chosen = isOpening ? null : printerOf(settings.printer, printers);
@@ -186,7 +181,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const isFixed = this.fixed.has("printer");
     const hint = this.#hint(isOpening ? words.ownPrinterHint : this.#printerHint(), isFixed);
     return html`<div class="field">
-      <label for="printer">${words.printer}</label>
+      <label for="printer">${this.fields === "printer" ? words.yourPrinter : words.printer}</label>
       ${printerSearch({
         ...{ search, value, isFixed, language },
         chosen: isOpening ? words.ownPrinter : chosen === null ? value : modelOf(chosen),
@@ -267,61 +262,37 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("unit", words.unit, list, { value: unit || UNITS[0], change });
   }
 
-  /** Rarely used settings. */
-  #more(isUniform: boolean): TemplateResult {
-    const words = this.language.texts.settings;
-    const { bottom_layers, bottom_exposure_s } = this.#cure;
-    const isResin = !isFilament(this.settings.format);
-    return html`<details ?open=${this.#openAtFirst?.more}>
-      <summary>${words.more}</summary>
-      <div class="more">
-        ${isResin && this.fields === "all" ? this.#hollow() : nothing}
-        ${isUniform
-          ? nothing
-          : html`${isResin
-              ? this.#radios("minimize", words.least, [["layers", words.leastLayers], ["time", words.leastTime]], words.leastHint)
-              : nothing}
-            ${this.#radios("snap", words.flats, [["auto", words.on], ["off", words.off]], words.flatsHint)}
-            ${this.#field("step", words.step, { hint: words.stepHint })}`}
-        ${isResin
-          ? html`<div class="pair">
-              ${this.#field("bottomLayers", words.bottomLayers, { placeholder: String(bottom_layers) })}
-              ${this.#field("bottomExposure", words.bottomExposure, { placeholder: String(bottom_exposure_s) })}
-            </div>
-            ${this.#printThrough()}`
-          : nothing}
-        ${this.settings.printer === "" || this.fixed.has("printer")
-          ? nothing
-          : towersOffer(this.towers, this.language, () => this.dispatchEvent(new CustomEvent("cusp-towers")))}
-      </div>
+  /** A collapsible group of rarely used fields, which are fetched when it opens. */
+  #group(name: Group, summary: string, fields: (code: Rare, form: Form) => TemplateResult): TemplateResult {
+    const isOpen = this.opened.has(name) || this.#openAtFirst?.[name] === true;
+    const toggled = ({ target }: Event): void => {
+      if ((target as HTMLDetailsElement).open && !this.opened.has(name)) this.opened = new Set([...this.opened, name]);
+    };
+    return html`<details ?open=${this.#openAtFirst?.[name]} @toggle=${toggled}>
+      <summary>${summary}</summary>
+      ${isOpen ? html`<div class="more">${this.#fetched(fields)}</div>` : nothing}
     </details>`;
   }
 
-  /** Cure below layers. The depths of the law appear once there is an overcure. */
-  #printThrough(): TemplateResult {
-    const words = this.language.texts.settings;
-    const { penetration_mm, print_through } = this.#cure;
-    const field = this.#field("overcure", words.overcure, { hint: words.overcureHint, placeholder: String(print_through?.overcure_mm ?? "") });
-    const isOff = this.settings.overcure.trim() === "" && !print_through;
-    return html`${field}
-      ${isOff
-        ? nothing
-        : html`<div class="pair">
-            ${this.#field("penetration", words.penetration, { placeholder: String(penetration_mm) })}
-            ${this.#field("retained", words.retained, { placeholder: String(print_through?.retained ?? 1) })}
-          </div>`}
-      <details class="bridges" @toggle=${() => (this.measures = true)}>
-        <summary>${words.measure}</summary>
-        ${this.measures ? this.#bridges() : nothing}
-      </details>`;
-  }
-
-  #bridges(): TemplateResult | typeof nothing {
-    if (bridgesCode.code === null) return bridgesCode.instead(this, this.language);
-    const { bridgesStyles, bridgesTable } = bridgesCode.code;
-    adopt(this, bridgesStyles);
-    const say = (name: string, detail?: readonly string[]): boolean => this.dispatchEvent(new CustomEvent(name, { detail }));
-    return bridgesTable(this, () => say("cusp-save-bridges"), (bridges) => say("cusp-bridges", bridges));
+  #fetched(fields: (code: Rare, form: Form) => TemplateResult): TemplateResult | typeof nothing {
+    const { code } = rareCode;
+    if (code === null) return rareCode.instead(this, this.language);
+    adopt(this, code.rareStyles);
+    const { settings, language, towers, bridges, cureFit } = this;
+    return fields(code, {
+      settings,
+      language,
+      towers,
+      bridges,
+      cureFit,
+      isWhole: this.fields === "all",
+      isFixedPrinter: this.fixed.has("printer"),
+      cure: this.#cure,
+      field: (...of) => this.#field(...of),
+      radios: (...of) => this.#radios(...of),
+      hollow: () => this.#hollow(),
+      say: (name, detail) => void this.dispatchEvent(new CustomEvent(name, { detail })),
+    });
   }
 
   #supports(): TemplateResult {
@@ -329,24 +300,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     const { supports } = this.settings;
     const list = STRENGTHS.map((strength) => [strength, words.strengths[strength]] as const);
     return html`${this.#select("supports", words.supports, options(list, supports), { hint: words.supportsHint })}
-      ${supports === "none" ? nothing : this.#sizes(supports)}`;
-  }
-
-  /** Sizes of supports, with those of the strength where none is typed. */
-  #sizes(strength: SupportStrength): TemplateResult {
-    const { settings: { raft, planner, layerMax }, language: { texts: { settings: words } } } = this;
-    const size = (field: SizeField, hint = ""): TemplateResult => this.#field(field, words[field], { hint, placeholder: String(usualSize(field, strength)) });
-    return html`<details ?open=${this.#openAtFirst?.sizes}>
-      <summary>${words.supportSizes}</summary>
-      <div class="more">
-        <div class="pair">${size("lift")} ${size("supportSpacing", words.supportSpacingHint)}</div>
-        <div class="pair">${size("contact")} ${size("pillar")}</div>
-        ${size("supportAngle", words.supportAngleHint)}
-        ${this.#radios("raft", words.raft, [["off", words.off], ["on", words.on]], words.raftHint)}
-        ${raft === "off" ? nothing : html`<div class="pair">${size("raftThickness")} ${size("raftMargin")}</div>`}
-        ${planner === "uniform" ? nothing : this.#field("supportLayer", words.supportLayer, { hint: words.supportLayerHint, placeholder: layerMax })}
-      </div>
-    </details>`;
+      ${supports === "none" ? nothing : this.#group("sizes", words.supportSizes, ({ sizeFields }, form) => sizeFields(form, supports))}`;
   }
 
   /** Hollowing. Infill and drain holes appear once a wall thickness is set. */
@@ -447,12 +401,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return isFixed ? `${this.language.texts.settings.fixed} ${hint}`.trim() : hint;
   }
 
-  #radios<Key extends "planner" | "minimize" | "snap" | "raft">(
-    key: Key,
-    legend: string,
-    choices: readonly (readonly [Settings[Key], string])[],
-    hint: string,
-  ): TemplateResult {
+  #radios(key: "planner" | "minimize" | "snap" | "raft", legend: string, choices: readonly (readonly [string, string])[], hint: string): TemplateResult {
     return html`<fieldset aria-describedby="${key}-hint">
       <legend>${legend}</legend>
       <div class="choice">
