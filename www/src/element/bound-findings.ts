@@ -1,6 +1,7 @@
 /** The findings panel, bound to a session. Its code is fetched when a user first opens it. */
 import { html, nothing, type TemplateResult } from "lit";
 import type { Facts } from "./facts.js";
+import type { Fix } from "./state/fixes.js";
 import { FetchedPanel } from "./parts/part.js";
 
 const findingsCode = new FetchedPanel("findings", () => import("./panels/findings-panel.js"), ({ defineFindings }) => defineFindings());
@@ -20,6 +21,10 @@ export function findingsPanel({ element, session, language, panels }: Facts): Te
     .showsWalls=${checks.showsWalls}
     .wall_mm=${checks.wall_mm}
     .metric=${settings.metric}
+    .settings=${settings}
+    .fixed=${session.fixed}
+    .canOrient=${panels.has("orientation") && session.orientation.isPossible}
+    @cusp-fix=${({ detail: { change } }: CustomEvent<Fix>) => (change === null ? void session.orientation.start() : session.change(change))}
     .language=${language}
   ></cusp-findings>`;
 }

@@ -67,6 +67,7 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     .shown=${shown}
     .layer=${layer}
     .marks=${session.checks.marks}
+    .places=${session.checks.places}
     .walls_mm=${session.checks.showsWalls ? session.checks.wall_mm : null}
     @cusp-walls=${() => (session.checks.showsWalls = false)}
     .rotation=${turning ?? rotationOf(settings.rotation)}

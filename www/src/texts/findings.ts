@@ -47,6 +47,15 @@ const FINDINGS = {
     "small-contact": "Only {area} hold the print on the plate, less than {limit} of its largest layer.",
   },
   /** Advice on each kind. */
+  /** Labels of buttons that remedy findings. */
+  fixes: {
+    supports: "Add supports",
+    stronger: "Use stronger supports",
+    raft: "Add a raft",
+    drain: "Drill drain holes",
+    hollow: "Hollow the model",
+    orient: "Find a better direction",
+  },
   advice: {
     island: "Support it, or turn the model.",
     "loose-body": "Support it, join it, or leave it out.",

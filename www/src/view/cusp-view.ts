@@ -250,6 +250,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     }
     if ((["positions", "look", "heat", "saliency", "least"] as const).some(has)) this.#heat(null);
     if ((["positions", "rotation", "scale", "lift_mm", "z_mm", "look"] as const).some(has)) this.#print();
+    if (has("places")) scene.setPlaces(this.places);
     if (has("marks") && (this.marks.length > 0 || this.hasUpdated)) scene.setMarks(this.marks, this.#flight_ms);
     this.#near();
     scene.invalidate();

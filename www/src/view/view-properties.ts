@@ -40,6 +40,8 @@ export const PROPERTIES = {
   layer: given<number | null>(null),
   /** Places to mark; the first is turned to the viewer. */
   marks: given<readonly Mark[]>([]),
+  /** Places to outline, in the same frame. */
+  places: given<readonly Mark[]>([]),
   /** The printer's build volume; without one, the plate is a grid that fades out. */
   plate: given<BuildVolume | null>(null),
   /** Copies on the plate; the model is the one at `selected`. Empty for a single model in the middle. */

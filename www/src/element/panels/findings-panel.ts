@@ -9,6 +9,8 @@ import { elementWith, given, own } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Checked } from "../state/checked.js";
 import type { Checks } from "../state/checks.js";
+import { fixOf, type Fix } from "../state/fixes.js";
+import { DEFAULT_SETTINGS, type Settings } from "../state/settings.js";
 import { viewTexts } from "../parts/view-texts.js";
 import { findingsStyles } from "../styles/findings-styles.js";
 import { shared } from "../styles/shared.js";
@@ -47,6 +49,11 @@ const PROPERTIES = {
   /** Walls thinner than this are thin, mm. */
   wall_mm: given(0),
   metric: given<Metric>("cusp"),
+  settings: given(DEFAULT_SETTINGS),
+  /** Settings that must not change. */
+  fixed: given<ReadonlySet<keyof Settings>>(new Set()),
+  /** True if a search for a better direction can be started and shown. */
+  canOrient: given(false),
   language: given<Language>(languageOf()),
   /** Kinds, per model, whose findings are all shown. */
   whole: own<ReadonlySet<string>>(new Set()),
@@ -139,7 +146,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
         ${sign(severity)} <span class="name">${words.kinds[code]}</span> <span class="count figures">${format.count(found)}</span>
         <span class="severity quiet">${words.severities[severity]}</span>
       </h4>
-      ${isNote ? nothing : html`<p class="quiet" id="${id}-advice">${words.advice[code]}</p>`}
+      ${isNote ? nothing : html`<p class="quiet" id="${id}-advice">${words.advice[code]}</p> ${this.#fix(code, id, words)}`}
       <ul>
         ${shown.map((finding) => this.#item(finding, isNote ? nothing : `${id}-advice`, words))}
       </ul>
@@ -149,6 +156,14 @@ export class CuspFindings extends elementWith(PROPERTIES) {
           ? html`<p class="quiet">${words.smaller({ count: format.count(found - listed.length) })}</p>`
           : nothing}
     </section>`;
+  }
+
+  /** Button for the remedy of a kind, if settings or another direction are one. */
+  #fix(code: Count["code"], id: string, words: FindingsTexts): TemplateResult | typeof nothing {
+    const fix = fixOf(code, this.settings);
+    if (fix === null || (fix.change === null ? !this.canOrient : Object.keys(fix.change).some((key) => this.fixed.has(key as keyof Settings)))) return nothing;
+    const ask = (): void => void this.dispatchEvent(new CustomEvent<Fix>("cusp-fix", { detail: fix, bubbles: true }));
+    return html`<button class="small fix" aria-describedby=${id} ?disabled=${!this.isCurrent} @click=${ask}>${words.fixes[fix.name]}</button>`;
   }
 
   #item(finding: Finding, advice: string | typeof nothing, words: FindingsTexts): TemplateResult {

@@ -70,6 +70,8 @@ const PROPERTIES = {
   /** The chosen finding, on each copy. */
   marks: given<readonly Mark[]>([]),
   /** Wall thickness below which the model is marked, mm; null hides the thickness colours. */
+  /** All findings that need attention, on each copy. */
+  places: given<readonly Mark[]>([]),
   walls_mm: given<number | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** Height of the scaled model, and the pose in which it has that height; null for the file's own size. */
@@ -225,6 +227,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
               .wall_mm=${walls_mm ?? FACTS.limits.wall_mm}
+              .places=${isEditing ? NO_PLACES : this.places}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
               .heat=${heat}

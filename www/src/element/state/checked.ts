@@ -36,3 +36,13 @@ function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Findi
   const [low, high] = finding.bounds_mm;
   return { ...finding, at_mm: to(finding.at_mm), bounds_mm: [to(low), to(high)] };
 }
+/** Maximum number of findings outlined at once; the largest of each kind come first. */
+const MOST_PLACES = 200;
+
+/** The findings that need attention, on each copy. */
+export function placesOf(models: readonly Checked[]): readonly Finding[] {
+  return models
+    .flatMap(({ copies_mm, found }) => found.findings.filter(({ severity }) => severity === "review" || severity === "reject").flatMap((finding) => copies_mm.map((at_mm) => moved(finding, at_mm))))
+    .slice(0, MOST_PLACES);
+}
+

@@ -4,7 +4,7 @@ import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { isEqual } from "./plain.js";
-import { checkedOf, onCopies, type Checked } from "./checked.js";
+import { checkedOf, onCopies, placesOf, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -38,6 +38,7 @@ export class Checks {
   #isOpen = false;
   #chosen: Finding | null = null;
   #marks = NO_MARKS;
+  #places = NO_MARKS;
   #showsWalls = false;
   #error: SlicerError | null = null;
   /** Input of the last check or of its failure. */
@@ -114,6 +115,11 @@ export class Checks {
   /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
   choose(finding: Finding | null): void {
     this.#chosen = finding === this.chosen ? null : finding;
+  /** Findings of the current check that need attention, on each copy; empty unless a panel shows the findings. */
+  get places(): readonly Finding[] {
+    return this.#isOpen && this.check !== null ? this.#places : NO_MARKS;
+  }
+
     this.#marks = this.#chosen === null ? NO_MARKS : onCopies(this.#chosen, this.models);
     if (this.chosen === null) this.#host.changed();
     else this.#host.look(this.chosen.layers[0]);
@@ -158,3 +164,4 @@ export class Checks {
     this.#chosen = null;
   }
 }
+    this.#places = placesOf(this.models);

@@ -8,7 +8,7 @@ import type { Settings } from "./settings.js";
 const HOLLOW_ML = 30;
 
 /** Walls of hollowed models, mm. */
-const WALL = "2";
+export const WALL = "2";
 
 /**
  * The pose of a candidate, supports, and walls for a model that takes much resin. Supports and walls already chosen stay, and slicers of

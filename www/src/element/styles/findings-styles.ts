@@ -52,6 +52,9 @@ export const findingsStyles = css`
     font-weight: 550;
     cursor: pointer;
   }
+  .fix {
+    margin-block: 0.25rem 0.375rem;
+  }
   .failed {
     color: var(--cusp-bad);
   }

@@ -1,4 +1,4 @@
-/** Boxes that mark a place on each copy of a model; also visible through the model. */
+/** Boxes that mark places on a model; also visible through the model. */
 import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial } from "three";
 import type { Triple } from "./pose.js";
 
@@ -24,7 +24,14 @@ export class Marker {
   readonly #box = new BoxGeometry(1, 1, 1);
   readonly #edges = new EdgesGeometry(this.#box);
   readonly #fill = new MeshBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: 0.25, depthTest: false, depthWrite: false });
-  readonly #lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, depthTest: false, depthWrite: false });
+  readonly #lines: LineBasicMaterial;
+  readonly #isFaint: boolean;
+
+  /** @param isFaint true for outlines alone */
+  constructor(isFaint = false) {
+    this.#isFaint = isFaint;
+    this.#lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: isFaint ? 0.6 : 1, depthTest: false, depthWrite: false });
+  }
 
   /** Diagonal of each box, mm; all marks are copies of one. */
   get diagonal_mm(): number {
@@ -39,7 +46,7 @@ export class Marker {
       // After the model, through which it is visible.
       fill.renderOrder = 10;
       lines.renderOrder = 11;
-      const box = new Group().add(fill, lines);
+      const box = new Group().add(...(this.#isFaint ? [lines] : [fill, lines]));
       box.position.set(...middleOf(mark));
       box.scale.set(Math.max(least, high[0] - low[0]), Math.max(least, high[1] - low[1]), Math.max(least, high[2] - low[2]));
       return box;

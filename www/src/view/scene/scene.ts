@@ -67,6 +67,8 @@ export class Scene {
   /** Markers of the points on the model. */
   readonly markers = new Markers();
   readonly #marker = new Marker();
+  /** Outlines of other places. */
+  readonly #places = new Marker(true);
   readonly #renderer: WebGLRenderer;
   readonly #scene = new ThreeScene();
   readonly #gizmo: Gizmo;
@@ -117,7 +119,7 @@ export class Scene {
     this.copies = new Copies(this.model.material.uniforms, this.model.supports.material);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
-    this.model.stand.add(this.#marker.group, this.markers.group);
+    this.model.stand.add(this.#marker.group, this.#places.group, this.markers.group);
     this.#scene.add(this.model.stand, this.copies.group, this.plate.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
@@ -248,6 +250,12 @@ export class Scene {
   }
 
   /** Highlights these facets; null: none. */
+  /** Outlines these places. */
+  setPlaces(places: readonly Mark[]): void {
+    this.#places.set(places, this.model.size_mm);
+    this.invalidate();
+  }
+
   setFace(facets: readonly number[] | null): void {
     const { geometry } = this.#face;
     geometry.dispose();
@@ -316,6 +324,7 @@ export class Scene {
     this.copies.dispose();
     this.#marker.dispose();
     this.markers.dispose();
+    this.#places.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();
