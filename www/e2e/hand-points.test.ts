@@ -5,7 +5,7 @@ import { expect, test } from "vitest";
 import type { CuspView } from "../src/view/cusp-view.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
-import { drop, settled, SOFTWARE_GL, state } from "./browser.js";
+import { drop, sceneBox, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { prism, sphere } from "./solids.js";
 
@@ -41,8 +41,7 @@ const count = (page: Page, name: string): Promise<string> => page.locator("secti
 
 /** A point of the view, given as fractions of its width and height. */
 async function placeIn(view: Locator, x: number, y: number): Promise<[number, number]> {
-  const box = await view.boundingBox();
-  if (box === null) throw new Error("there is no view");
+  const box = await sceneBox(view);
   return [box.x + x * box.width, box.y + y * box.height];
 }
 

@@ -86,7 +86,8 @@ test("a large model is read, planned, drawn and saved beside the page, whose thr
   await state(page, "done");
   await expect.poll(() => page.evaluate(() => window.meter.drawn)).toBeGreaterThan(0);
   const { read, copied, drawn } = await page.evaluate(() => window.meter);
-  expect(read).toBe(0);
+  // Its beginning tells a model from a print file.
+  expect(read).toBeLessThanOrEqual(1024);
   expect(copied).toBeLessThan(MESSAGES_BYTES);
   expect(drawn).toBeLessThan(CORNERS);
 });

@@ -2,7 +2,7 @@
 import type { Page } from "playwright-core";
 import { expect, test } from "vitest";
 import { broken } from "./axe.js";
-import { drop, settled, SOFTWARE_GL, state } from "./browser.js";
+import { drop, sceneBox, settled, SOFTWARE_GL, state } from "./browser.js";
 import { pages } from "./pages.js";
 import { sphere } from "./solids.js";
 
@@ -44,8 +44,7 @@ const brush = (page: Page): Promise<void> => page.getByRole("radio", { name: "Pa
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {
   const view = page.locator("cusp-view");
   await view.scrollIntoViewIfNeeded();
-  const box = await view.boundingBox();
-  if (box === null) throw new Error("there is no view");
+  const box = await sceneBox(view);
   const x = box.x + box.width / 2;
   await view.evaluate((it) =>
     it.addEventListener("cusp-height", (event) => {

@@ -78,6 +78,8 @@ test.skipIf(cusp === null)("towers for an untried printer are those of the comma
   const page = await opened("saturn-3");
   const warning = page.locator(".warning", { hasText: "It is not confirmed that the Elegoo Saturn 3 prints layers of several thicknesses" });
   expect(await warning.innerText()).toContain("If they are 0.5 and 1.5\u00a0mm high, the printer takes a thickness for each layer");
+  // Once the plan is checked, which it says.
+  await page.locator("button.findings").waitFor();
   const plan = await page.locator("[part=plan]").innerText();
   const file = await towers(page, warning);
   expect(file.suggestedFilename()).toBe("towers-saturn-3.goo");

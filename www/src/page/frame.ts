@@ -42,7 +42,6 @@ export function frame(
         <img src=${icon} alt="" width="32" height="32" />
         <h1>Cusp</h1>
       </div>
-      <p class="tagline">${words.tagline}</p>
       <p class="private">${words.private}</p>
       ${visit.tools(language)}
       <label class="language">
@@ -66,21 +65,21 @@ export function frame(
             @cusp-files=${(event: CustomEvent<File[]>) => open(event.detail)}
           ></cusp-print>`}
       <cusp-workbench .locale=${locale} ?hidden=${print !== null}>
-        <p slot="start" class="offers">
-          ${words.noModel}
-          <button class="link" @click=${example}>${words.tryExample}</button>
-          <label class="link">
-            <input class="hidden" type="file" @change=${(event: Event) => open(chosen(event))} />
-            ${words.printFile}
+        <div slot="start" class="first">
+          <h2>${words.headline}</h2>
+          <p class="lead">${words.lead}</p>
+          <label class="drop" part="drop">
+            <input class="hidden" type="file" multiple @change=${(event: Event) => open(chosen(event))} />
+            <strong>${language.texts.open.drop}</strong>
+            <span class="choose">${language.texts.open.choose}</span>
+            <small>${words.files}</small>
           </label>
-        </p>
-        <p slot="start" class="private phone">${words.private}</p>
-        <div slot="empty" class="empty">
-          ${visit.recent(language) ??
-          html`<ul class="points">
-            ${words.points.map(([title, text]) => html`<li><strong>${title}</strong> ${text}</li>`)}
-          </ul>`}
         </div>
+        <p slot="offers" class="offers">
+          <button class="link" @click=${example}>${words.tryExample}</button>
+          <span class="private phone">${words.private}</span>
+        </p>
+        <div slot="beside" class="beside">${visit.recent(language) ?? html`<cusp-figure aria-hidden="true"></cusp-figure>`}</div>
         <button slot="actions" class="link" @click=${saveProject}>${words.saveProject}</button>
       </cusp-workbench>
     </main>

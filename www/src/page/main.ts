@@ -159,10 +159,10 @@ async function start(): Promise<void> {
   fetchAhead();
 }
 
-/** Fetches the view when the page is idle, before it is needed, unless the user saves data. */
+/** Fetches the figure of the empty page, and the view before it is needed, when the page is idle, unless the user saves data. */
 function fetchAhead(): void {
   if ((navigator as { connection?: { saveData?: boolean } }).connection?.saveData === true) return;
-  idle().then(fetchView).catch(() => undefined);
+  idle().then(() => Promise.all([fetchView(), import("./figure.js")])).catch(() => undefined);
 }
 
 void start();

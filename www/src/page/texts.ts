@@ -3,17 +3,18 @@ import { room } from "../texts/messages.js";
 
 export const pageWords = room("page", {
   title: "Cusp: adaptive layers for resin printing",
-  tagline: "Thin layers where the surface needs them, thick ones where it does not.",
-  private: "Your model never leaves this computer.",
+  headline: "Fewer layers, the same surface",
+  lead: "For resin printers: Cusp turns, hollows and supports your model, makes its layers thin where the surface needs it and thick where it does not, and writes the file for your printer.",
+  private: "Your model stays on this device.",
   drop: "Drop to open",
   /** The same beside open models, and the place where a drop replaces them. */
   dropAdd: "Drop to add to the plate",
   dropReplace: "Drop here to replace",
   /** Label of the language list. */
   languages: "Language",
-  noModel: "No model at hand?",
   tryExample: "Try the example",
-  printFile: "Look into a print file",
+  /** Kinds of files that can be opened. */
+  files: "STL, 3MF, OBJ, or a print file to look into",
   /** Saves models, supports, painting and settings as one file. */
   saveProject: "Save project",
   /** Buttons of the header: work that this browser keeps, named settings, the list of keys. */
@@ -33,12 +34,6 @@ export const pageWords = room("page", {
     reload: "Reload",
     close: "Close",
   },
-  /** The page's promises: a heading and a sentence each. */
-  points: [
-    ["Fewest layers", "Every plan that keeps your tolerance is considered, and the shortest is taken."],
-    ["No step too high", "The tolerance holds in each layer, not on average."],
-    ["A file to print", "For printers by name, or as images of the layers with their thickness, in a zip."],
-  ],
 });
 
 export type PageWords = ReturnType<typeof pageWords>;

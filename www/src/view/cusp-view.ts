@@ -180,7 +180,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     // When it starts, a transition may still have the old colour.
     for (const type of ["transitionrun", "transitionend"]) this.renderRoot.addEventListener(type, this.#recolour, { signal: life.signal });
     this.#reducedMotion.addEventListener("change", this.#damp, { signal: life.signal });
-    const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight);
+    const resize = (): void => scene.setSize(holder.clientWidth, holder.clientHeight, parseFloat(getComputedStyle(holder).paddingInlineEnd));
     this.#beside = new Beside(holder, resize, life.signal);
     this.#approach = new Approach(scene);
     this.#damp();
@@ -378,8 +378,8 @@ export class CuspView extends elementWith(PROPERTIES) {
       event.stopPropagation();
       if (action.do === "undo-stroke") this.undo();
       else this.redo();
-    } else if (this.tool === "paint") void this.#painting?.stamp([this.clientWidth / 2, this.clientHeight / 2]);
-    else this.#clicked([this.clientWidth / 2, this.clientHeight / 2]);
+    } else if (this.tool === "paint") void this.#painting?.stamp(cameras.middle);
+    else this.#clicked(cameras.middle);
   };
 
   /** Disables damping on slow renderers, where it would last for seconds. */
@@ -401,7 +401,7 @@ export class CuspView extends elementWith(PROPERTIES) {
     const label = this.renderRoot.querySelector<HTMLElement>(".label");
     const band = this.positions === null ? null : this.#band();
     if (label !== null && this.#scene !== null) {
-      place(label, band === null ? null : this.#scene.edgeAt((band[0] + band[1]) / 2), this.clientWidth);
+      place(label, band === null ? null : this.#scene.edgeAt((band[0] + band[1]) / 2), this.#scene.cameras.width_px);
     }
     this.#tellCamera();
     if (frame?.top_px === this.#frame?.top_px && frame?.bottom_px === this.#frame?.bottom_px) return;

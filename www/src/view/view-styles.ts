@@ -31,6 +31,8 @@ export const viewStyles = css`
   .scene {
     position: absolute;
     inset: 0;
+    /* What a layout puts over the view's edge; the model stands in the middle of the rest. */
+    padding-inline-end: var(--cusp-view-aside, 0px);
     cursor: grab;
     user-select: none;
     -webkit-user-select: none;
@@ -66,7 +68,7 @@ export const viewStyles = css`
   .cross {
     display: none;
     position: absolute;
-    inset: calc(50% - 10px) auto auto calc(50% - 10px);
+    inset: calc(50% - 10px) auto auto calc(50% - 10px - var(--cusp-view-aside, 0px) / 2);
     width: 20px;
     height: 20px;
     background:
@@ -80,7 +82,7 @@ export const viewStyles = css`
   .label {
     position: absolute;
     inset-block-end: 0.5rem;
-    inset-inline-end: 0.5rem;
+    inset-inline-end: calc(0.5rem + var(--cusp-view-aside, 0px));
     padding: 0.125rem 0.5rem;
     border-radius: 6px;
     background: var(--cusp-text, CanvasText);
@@ -109,7 +111,7 @@ export const viewStyles = css`
   .building {
     position: absolute;
     inset: auto 0 0;
-    padding: 0 0.75rem 0.625rem;
+    padding: 0 calc(0.75rem + var(--cusp-view-aside, 0px)) 0.625rem 0.75rem;
     color: var(--cusp-quiet, inherit);
     font-size: 0.75rem;
     text-align: end;

@@ -40,6 +40,7 @@ export class CuspWorkbench extends SlicerElement {
   constructor() {
     super();
     define("cusp-layer-slider", CuspLayerSlider);
+    this.session.checks.isWatching = true;
     this.addEventListener("cusp-plan", () => {
       const { settings } = this.session;
       // Once for a printer: after an undo, adaptive layers stay.
@@ -102,9 +103,9 @@ export class CuspWorkbench extends SlicerElement {
     if (!this.#isWide) this.#open(isClosing ? null : step);
     await this.updateComplete;
     const title = this.renderRoot.querySelector<HTMLElement>("#step-title");
-    title?.closest(".tab-row")?.nextElementSibling?.scrollTo(0, 0);
+    this.renderRoot.querySelector("[aria-labelledby=step-title]")?.scrollTo(0, 0);
     // After the button at a panel's foot, focus the next title, so that reading continues there.
-    if (from === "foot") title?.focus();
+    if (from === "foot") (title?.closest("button") ?? title)?.focus();
   }
 
   /** Opens a sheet of a narrow screen, or closes the open one. On closing, the focus returns to the button of the sheet. */

@@ -1,11 +1,11 @@
-/** The path from a model to its print file: a row of steps, and the panel of each step. */
+/** The path from a model to its print file: the steps, and the panel of each. */
 import { html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../api/facts.js";
 import { orientationPanel, settingsPanel, takeUp } from "../element/bound-panels.js";
 import { findingsPanel } from "../element/bound-findings.js";
 import type { Facts } from "../element/facts.js";
 import type { Fields } from "../element/panels/settings-form.js";
-import { needsModel, STEPS, type HandTool, type Step } from "./places.js";
+import { STEPS, type HandTool, type Step } from "./places.js";
 import { stepStates, type Mark } from "./step-states.js";
 import { workbenchWords } from "./texts.js";
 
@@ -17,13 +17,12 @@ const TOOLS: Partial<Record<Step, HandTool>> = { turn: "rotate", hollow: "drains
 
 /**
  * @param current the step whose panel is shown
- * @param isWide true if there is room for the states of the steps
+ * @param isWide true if the steps are a column, with room for their states
  */
 export function path(facts: Facts, current: Step | null, isWide: boolean, go: (step: Step) => void): TemplateResult {
   const { session, language } = facts;
   const words = workbenchWords(language);
   const states = stepStates(session, language);
-  const isEmpty = session.model === null;
   return html`<nav class="path" aria-label=${words.path}>
     <ol>
       ${STEPS.map((step, i) => {
@@ -31,12 +30,11 @@ export function path(facts: Facts, current: Step | null, isWide: boolean, go: (s
         return html`<li>
           <button
             aria-current=${step === current ? "step" : nothing}
-            ?disabled=${isEmpty && needsModel(step)}
             @click=${() => go(step)}
           >
             <span class="badge ${mark ?? ""}" aria-hidden="true">${badge(mark, language.format.count(i + 1))}</span>
-            <span class="name">${words.steps[step]}</span>
-            ${isWide && !isEmpty ? html`<span class="state">${said}</span>` : nothing}
+            <span class="name" id=${isWide && step === current ? "step-title" : nothing}>${words.steps[step]}</span>
+            ${isWide ? html`<span class="state">${said}</span>` : nothing}
           </button>
         </li>`;
       })}
@@ -64,7 +62,7 @@ export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, ta
   const isLast = step === STEPS.at(-1);
   // Turning has no settings besides turning by hand.
   return html`<div class="panel" tabindex="0" role="group" aria-labelledby="step-title">
-      <p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>
+      ${step === "slice" ? nothing : html`<p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>`}
       ${first} ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
       ${isLast ? foot : nothing}
     </div>
@@ -97,8 +95,7 @@ function missing({ session: { result, settings }, language }: Facts): TemplateRe
   return points === 0 ? nothing : html`<p class="missing">${workbenchWords(language).states.missing({ points })}</p>`;
 }
 
-function stepFoot({ session, language }: Facts, step: Step, go: (step: Step) => void): TemplateResult | typeof nothing {
-  if (session.model === null) return nothing;
+function stepFoot({ language }: Facts, step: Step, go: (step: Step) => void): TemplateResult {
   const words = workbenchWords(language);
   const at = STEPS.indexOf(step);
   const [before, after] = [STEPS[at - 1], STEPS[at + 1]];

@@ -22,8 +22,3 @@ export const WIDE_PX = 1180;
 export function isStep(sheet: Sheet | null): sheet is Step {
   return STEPS.some((step) => step === sheet);
 }
-
-/** Returns true if a step needs an open model; the others only prepare settings. */
-export function needsModel(step: Step): boolean {
-  return step === "turn" || step === "check";
-}

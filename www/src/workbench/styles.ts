@@ -27,16 +27,19 @@ export const workbenchStyles = css`
   }
   .bench {
     display: grid;
-    gap: 0.75rem;
     height: 100%;
     min-height: 0;
+    border-top: 1px solid var(--cusp-line);
   }
+  /* The view has at least three fifths of the width. */
   .bench.wide {
-    grid-template: minmax(0, 1fr) / 19rem minmax(0, 1fr) 19rem;
+    grid-template: minmax(0, 1fr) / clamp(14.75rem, 20%, 19rem) minmax(0, 1fr) clamp(14.75rem, 20%, 19rem);
+  }
+  .bench.empty {
+    grid-template: minmax(0, 1fr) / minmax(0, 1fr);
   }
   .bench.narrow {
     grid-template: minmax(0, 1fr) auto / minmax(0, 1fr);
-    gap: 0;
   }
   /* On a small screen, too, the model is seen above the sheet. */
   .bench.narrow:has(.sheet) {
@@ -53,15 +56,28 @@ export const workbenchStyles = css`
     border-radius: var(--cusp-radius);
   }
   .card {
-    padding: 0.875rem 1rem;
+    padding: 0.75rem;
   }
 
   .side {
     display: flex;
     flex-direction: column;
-    gap: 0.75rem;
     min-width: 0;
     min-height: 0;
+    background: var(--cusp-card);
+  }
+  .choices {
+    border-inline-end: 1px solid var(--cusp-line);
+  }
+  .answers {
+    border-inline-start: 1px solid var(--cusp-line);
+  }
+  .side .card {
+    border: 0;
+    border-radius: 0;
+  }
+  .answers .tabbed {
+    border-top: 1px solid var(--cusp-line);
   }
   .tabbed {
     display: flex;
@@ -76,7 +92,7 @@ export const workbenchStyles = css`
     justify-content: space-between;
     gap: 0.5rem;
     min-height: 2.75rem;
-    padding-inline: 1rem 0.5rem;
+    padding: 0.25rem 0.5rem 0.25rem 0.75rem;
     border-bottom: 1px solid var(--cusp-line);
   }
   .tabs {
@@ -99,7 +115,7 @@ export const workbenchStyles = css`
   .panel {
     flex: 1;
     min-height: 0;
-    padding: 0.75rem 1rem 1rem;
+    padding: 0.75rem;
     overflow: hidden auto;
     overscroll-behavior: contain;
     scrollbar-width: thin;
@@ -109,54 +125,45 @@ export const workbenchStyles = css`
   }
   .path {
     grid-column: 1 / -1;
+    flex: none;
     min-width: 0;
     border-bottom: 1px solid var(--cusp-line);
   }
   .path ol {
-    display: flex;
-    flex-wrap: wrap;
     margin: 0;
     padding: 0;
     list-style: none;
   }
-  /* Wide enough for their names, whatever has come of them: nothing moves when that changes. */
-  .path li {
-    flex: 1 0 auto;
-    max-width: 100%;
-  }
   .path button {
-    display: grid;
-    grid-template-columns: auto 1fr;
-    align-content: center;
-    align-items: center;
-    justify-items: start;
-    gap: 0 0.375rem;
+    display: flex;
+    justify-content: start;
     width: 100%;
-    min-height: 3.5rem;
-    padding: 0.375rem 0.5rem;
+    min-height: 2.125rem;
+    padding: 0.125rem 0.75rem;
     border: 0;
-    border-block: 2px solid transparent;
+    border-inline: 3px solid transparent;
     border-radius: 0;
     color: var(--cusp-quiet);
     font-size: 0.875rem;
     text-align: start;
   }
   .path button[aria-current] {
-    border-bottom-color: var(--cusp-accent);
+    border-inline-start-color: var(--cusp-accent);
+    background: var(--cusp-note-wash);
     color: var(--cusp-text);
   }
   /* It would reach over the edge of the stage. */
   .path button:focus-visible {
     outline-offset: -3px;
   }
+  /* States are a column of their own: nothing moves when one changes. */
   .path .name {
+    flex: 0 0 5.25rem;
     white-space: nowrap;
   }
   .path .state {
-    grid-column: 1 / -1;
-    contain: inline-size;
+    flex: 1;
     overflow: hidden;
-    width: 100%;
     text-overflow: ellipsis;
     white-space: nowrap;
     color: var(--cusp-quiet);
@@ -165,6 +172,7 @@ export const workbenchStyles = css`
     font-variant-numeric: tabular-nums;
   }
   .badge {
+    flex: none;
     display: grid;
     place-items: center;
     width: 1.25rem;
@@ -194,13 +202,30 @@ export const workbenchStyles = css`
     background: var(--cusp-accent);
     color: var(--cusp-on-accent);
   }
+  .narrow .path ol {
+    display: flex;
+    flex-wrap: wrap;
+  }
+  .narrow .path li {
+    flex: 1 0 auto;
+    max-width: 100%;
+  }
+  .narrow .path .name {
+    flex: none;
+  }
   .narrow .path button {
-    grid-template-columns: 1fr;
-    justify-items: center;
+    flex-direction: column;
+    justify-content: center;
     gap: 0.125rem;
     min-height: 2.75rem;
     padding: 0.25rem 0.125rem;
+    border-inline: 0;
+    border-block: 2px solid transparent;
     font-size: 0.75rem;
+  }
+  .narrow .path button[aria-current] {
+    border-bottom-color: var(--cusp-accent);
+    background: none;
   }
   .panel > .hint {
     margin-bottom: 0.625rem;
@@ -211,7 +236,10 @@ export const workbenchStyles = css`
   .prepare {
     display: grid;
     gap: 0.25rem;
-    margin-top: 0.375rem;
+    font-size: 0.8125rem;
+  }
+  .tab-row .prepare button {
+    padding-inline: 0.5rem;
     font-size: 0.8125rem;
   }
   .panel > .prepare {
@@ -232,7 +260,7 @@ export const workbenchStyles = css`
     display: flex;
     justify-content: space-between;
     gap: 0.5rem;
-    padding: 0.5rem 1rem;
+    padding: 0.5rem 0.75rem;
     border-top: 1px solid var(--cusp-line);
   }
   .step-foot .next {
@@ -245,10 +273,9 @@ export const workbenchStyles = css`
   }
   .steps {
     display: flex;
-    gap: 0.125rem;
   }
   .steps button {
-    min-width: 1.75rem;
+    min-width: 1.625rem;
     padding: 0;
     border: 0;
   }
@@ -262,15 +289,56 @@ export const workbenchStyles = css`
   cusp-quality {
     height: auto;
   }
-  /* The settings below keep their place, however many models there are. */
-  .side .model:has(cusp-plate) {
+  /* The steps keep their place, however many models there are. */
+  .side .model {
     flex: 0 1 auto;
-    min-height: 12rem;
-    max-height: 62%;
+    min-height: 5rem;
+    max-height: 40%;
+    padding-bottom: 0.5rem;
     overflow: hidden auto;
     scrollbar-width: thin;
   }
-  .model dl {
+  /* Facts in as few lines as they take, and the buttons side by side. */
+  .side .model,
+  .side .model dl,
+  .side .model dl > div {
+    display: flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.25rem 0.5rem;
+  }
+  .side .model > :is(h2, dl, .files, cusp-plate, p) {
+    flex: 1 0 100%;
+    margin: 0;
+  }
+  .side .model dl {
+    color: var(--cusp-quiet);
+    font-size: 0.8125rem;
+  }
+  .side .model dl > div:not(:nth-child(2)) dt {
+    position: absolute;
+    clip-path: inset(50%);
+  }
+  .side .model :is(.open-other, .copies-row) {
+    display: contents;
+  }
+  .side .model .button.small {
+    margin: 0;
+    padding-inline: 0.5rem;
+    font-size: 0.8125rem;
+  }
+  .side .model .copies-row .button {
+    order: 1;
+  }
+  .side .model .copies-row > :not(.button),
+  .side .model slot,
+  .side .model cusp-plate {
+    order: 2;
+  }
+  .side .model .step {
+    min-width: 1.75rem;
+  }
+  .sheet .model dl {
     display: flex;
     gap: 0.25rem 1.25rem;
     margin-top: 0.375rem;
@@ -282,9 +350,8 @@ export const workbenchStyles = css`
     flex-wrap: wrap;
     align-items: center;
     gap: 0.5rem;
-    margin-top: 0.625rem;
+    margin-top: 0.5rem;
   }
-  .drop:has(:focus-visible),
   .open-other label:has(:focus-visible) {
     outline: 3px solid var(--cusp-focus);
     outline-offset: 2px;
@@ -296,31 +363,50 @@ export const workbenchStyles = css`
     grid-template: auto minmax(0, 1fr) / minmax(0, 1fr) auto;
     min-width: 0;
     min-height: 0;
-    border: 1px solid var(--cusp-line);
-    border-radius: var(--cusp-radius);
-    background: var(--cusp-card);
     overflow: hidden;
   }
+  /* The slider and the profile lie over the view's edge, and the model stands in the middle of the rest. */
   .wide .stage {
-    grid-template-columns: minmax(0, 1fr) auto clamp(9.5rem, 22%, 16rem);
+    --strip: 9.5rem;
+    --cusp-view-aside: 12rem;
+    --cusp-view-head: 3rem;
+    --cusp-bar-position: absolute;
+    grid-template: minmax(0, 1fr) / minmax(0, 1fr) 2.5rem var(--strip);
+  }
+  .wide .stage:has(cusp-model[editing]) {
+    --cusp-view-aside: 0px;
+  }
+  .wide .view:has(cusp-model[editing]) ~ :not(.overlay) {
+    visibility: hidden;
+  }
+  .stage > :not(.path) {
+    grid-row: -2;
   }
   .empty .stage {
-    grid-template-columns: minmax(0, 1fr);
+    display: block;
   }
   .view {
-    grid-area: 2 / 1;
+    grid-column: 1 / -1;
     min-width: 0;
     min-height: 0;
-    padding: 0.625rem 0 0.625rem 0.625rem;
+  }
+  .narrow .view {
+    grid-column: 1;
+  }
+  cusp-layer-slider {
+    grid-column: 2;
   }
   .profile {
+    z-index: 1;
+    grid-column: 3;
     min-width: 0;
     min-height: 0;
-    padding: 0.625rem 0.625rem 0.625rem 0;
+    padding: 0.625rem 0.5rem 0.625rem 0;
+    background: linear-gradient(to right, transparent, color-mix(in srgb, var(--cusp-card) 70%, transparent) 2.5rem);
   }
   .stage > .model-name {
     z-index: 1;
-    grid-area: 2 / 1;
+    grid-column: 1;
     place-self: start;
     max-width: 55%;
     margin: 3.5rem 0 0 0.75rem;
@@ -333,35 +419,36 @@ export const workbenchStyles = css`
 
   .start {
     display: flex;
-    flex-direction: column;
-    gap: 1rem;
-    min-height: 0;
-    padding: 1rem;
+    align-items: center;
+    justify-content: center;
+    gap: 2rem 4rem;
+    height: 100%;
+    max-width: 80rem;
+    margin: auto;
+    padding: 1.5rem clamp(1rem, 4vw, 3rem);
     overflow-y: auto;
   }
-  .drop {
+  .welcome {
+    flex: 0 1 30rem;
     display: grid;
-    flex: 1;
-    justify-items: center;
-    align-content: center;
-    gap: 1rem;
-    min-height: 15rem;
-    padding: 1.5rem 1rem;
-    border: 2px dashed var(--cusp-field);
-    border-radius: 12px;
-    cursor: pointer;
-    transition: border-color 120ms;
+    grid-template-columns: minmax(0, 1fr);
+    gap: 1.25rem;
+    max-height: 100%;
+    min-width: 0;
   }
-  .drop:hover {
-    border-color: var(--cusp-accent);
+  .narrow .start {
+    flex-direction: column;
+    align-items: stretch;
+    justify-content: start;
   }
-  .drop-title {
-    font-size: 1.375rem;
-    font-weight: 600;
-    text-align: center;
+  .narrow .welcome {
+    flex: none;
+    max-height: none;
   }
   .opening {
-    margin: auto;
+    display: grid;
+    place-items: center;
+    height: 100%;
     font-size: 1.375rem;
   }
 
@@ -405,7 +492,7 @@ export const workbenchStyles = css`
 
   /* Its height is its own, whatever the result has to say: nothing below it moves. */
   .plan {
-    flex: 0 0 min(23.5rem, 56%);
+    flex: 0 0 56%;
     overflow: hidden auto;
     scrollbar-width: thin;
   }
@@ -414,7 +501,7 @@ export const workbenchStyles = css`
     gap: 0;
   }
   .plan .count {
-    font-size: 2.75rem;
+    font-size: 2.25rem;
   }
   .plan .amount {
     font-size: 1rem;
@@ -434,6 +521,21 @@ export const workbenchStyles = css`
     width: 100%;
     padding-inline: 0.5rem;
     margin-block: 0.75rem 0.5rem;
+  }
+  .findings {
+    display: flex;
+    justify-content: start;
+    align-items: center;
+    min-height: 1.75rem;
+    padding: 0;
+    font-size: 0.875rem;
+    text-align: start;
+  }
+  .findings.ok {
+    color: var(--cusp-good);
+  }
+  .findings.reject {
+    color: var(--cusp-bad);
   }
   .plan #file {
     padding: 0;
@@ -456,13 +558,6 @@ export const workbenchStyles = css`
     margin-top: 0.625rem;
   }
 
-  .narrow .stage {
-    border: 0;
-    border-radius: 0;
-  }
-  .narrow .view {
-    padding: 0;
-  }
   .narrow cusp-layer-slider {
     margin-block: 2.5rem 3rem;
   }

@@ -1,4 +1,4 @@
-/** Layout of the workbench: the view in the middle, the step on the left, the result on the right; on a narrow screen, sheets. */
+/** Layout of the workbench: the view in the middle, the steps on the left, the result on the right; on a narrow screen, sheets. */
 import { html, nothing, type TemplateResult } from "lit";
 import {
   announcement,
@@ -11,6 +11,7 @@ import {
   modelPanel,
   noticeBox,
   qualityPanel,
+  settingsPanel,
   undoButtons,
 } from "../element/bound-panels.js";
 import { isFilament } from "../api/facts.js";
@@ -20,14 +21,14 @@ import type { Facts } from "../element/facts.js";
 import { modelCard, uniformOffer } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
 import { comparison, details, figures } from "../element/panels/summary.js";
-import { layersPicture } from "../element/parts/layers-picture.js";
 import { problemBox } from "../element/parts/problem-box.js";
 import { progressBar } from "../element/parts/progress.js";
-import { MODEL_FILES } from "../element/state/choice.js";
+import type { Fix } from "../element/state/fixes.js";
+import { kindsOf } from "../element/state/checked.js";
 import type { Result } from "../element/state/result.js";
 import { path, stepPanel } from "./path.js";
 import { isOf, type Replaced } from "./one-thickness.js";
-import { ANSWERS, isStep, needsModel, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
+import { ANSWERS, isStep, SHEETS, type AnswerPanel, type Sheet, type Step } from "./places.js";
 import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts.js";
 import { shown } from "../api/visible.js";
@@ -53,43 +54,35 @@ export interface Bench {
 }
 
 export function template(facts: Facts, bench: Bench): TemplateResult {
-  const { session, isDragging } = facts;
+  const { session, isDragging, language } = facts;
   const { isWide } = bench;
   const isEmpty = session.model === null;
   const classes = [isWide ? "wide" : "narrow", isEmpty ? "empty" : "", isDragging ? "dragging" : ""].join(" ");
   return html`
-    <div class="bench ${classes}" aria-busy=${session.busy !== null}>
-      ${isWide ? choicesSide(facts, bench) : nothing}
-      <section class="stage" aria-label=${isEmpty ? facts.language.texts.open.region : facts.language.texts.view.region}>
-        ${path(facts, stepOf(facts, bench), isWide, (step) => bench.go(step, "row"))}
-        ${isEmpty ? start(facts, bench) : view(facts, bench)}
+    <div class="bench ${classes}" aria-busy=${session.busy !== null} @cusp-fix=${({ detail }: CustomEvent<Fix>) => (detail.change === null ? bench.go("turn", "row") : undefined)}>
+      ${isWide && !isEmpty ? choicesSide(facts, bench) : nothing}
+      <section class="stage" aria-label=${isEmpty ? language.texts.open.region : language.texts.view.region}>
+        ${isWide || isEmpty ? nothing : path(facts, isStep(bench.sheet) ? bench.sheet : null, false, (step) => bench.go(step, "row"))}
+        ${isEmpty ? start(facts) : view(facts, bench)}
         <div class="overlay">${overlay(facts)}</div>
       </section>
-      ${isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${isEmpty ? nothing : bar(facts, bench)}`}
+      ${isEmpty ? nothing : isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${bar(facts, bench)}`}
     </div>
     ${announcement(facts)}
   `;
 }
 
-/** The step whose panel is shown; null if there is none. */
-function stepOf({ session }: Facts, { isWide, step, sheet }: Bench): Step | null {
-  if (!isWide) return isStep(sheet) ? sheet : null;
-  return session.model === null && needsModel(step) ? "slice" : step;
-}
-
-/** Content before a model is open. */
-function start({ session, language: { texts }, picked }: Facts, { isWide }: Bench): TemplateResult {
+/** Content before a model is open: that of the page, around the field for the printer. */
+function start(facts: Facts): TemplateResult {
+  const { busy } = facts.session;
+  if (busy !== null) return html`<h2 class="opening">${shown(busy.name)}</h2>`;
   return html`<div class="start">
-    ${session.busy === null
-      ? html`<label class="drop" part="drop">
-          <input class="visually-hidden" type="file" accept=${MODEL_FILES} multiple @change=${picked} />
-          ${layersPicture}
-          <span class="drop-title">${texts.open.drop}</span>
-          <span class="button primary">${texts.open.choose}</span>
-        </label>`
-      : html`<h2 class="opening">${shown(session.busy.name)}</h2>`}
-    <slot name="start"></slot>
-    ${isWide ? nothing : html`<slot name="empty"></slot>`}
+    <div class="welcome">
+      <slot name="start"></slot>
+      ${settingsPanel(facts, null, "printer")}
+      <slot name="offers"></slot>
+    </div>
+    <slot name="beside"></slot>
   </div>`;
 }
 
@@ -132,20 +125,13 @@ function overlay(facts: Facts): TemplateResult {
 }
 
 function choicesSide(facts: Facts, bench: Bench): TemplateResult {
-  const step = stepOf(facts, bench);
-  return html`<div class="side choices">
-    ${modelSection(facts, prepareButton(facts, bench))}
-    ${step === null
-      ? nothing
-      : html`<section class="card tabbed" part="settings">
-          <div class="tab-row">${stepTitle(facts, step)} ${undoButtons(facts)}</div>
-          ${stepPanel(facts, step, (step) => bench.go(step, "foot"), () => undefined)}
-        </section>`}
+  const { step } = bench;
+  return html`<div class="side choices" part="settings">
+    ${modelSection(facts)}
+    <div class="tab-row">${prepareButton(facts, bench)} ${undoButtons(facts)}</div>
+    ${path(facts, step, true, (step) => bench.go(step, "row"))}
+    ${stepPanel(facts, step, (step) => bench.go(step, "foot"), () => undefined)}
   </div>`;
-}
-
-function stepTitle({ language }: Facts, step: Step): TemplateResult {
-  return html`<h2 id="step-title" tabindex="-1">${workbenchWords(language).steps[step]}</h2>`;
 }
 
 /** Button that prepares the selected model, with what it does; disabled while a search or a task runs. */
@@ -158,10 +144,10 @@ function prepareButton({ session, language }: Facts, bench: Bench): TemplateResu
   </div>`;
 }
 
-function modelSection(facts: Facts, below: TemplateResult | typeof nothing = nothing): TemplateResult {
+function modelSection(facts: Facts): TemplateResult {
   const { session, language, picked } = facts;
   const actions = { picked, openFile: (place: number) => void session.openFile(place) };
-  return modelCard(session, language, actions, nothing, html`${platePanel(facts)} ${below}`);
+  return modelCard(session, language, actions, nothing, platePanel(facts));
 }
 
 function answersSide(facts: Facts, bench: Bench): TemplateResult {
@@ -169,7 +155,6 @@ function answersSide(facts: Facts, bench: Bench): TemplateResult {
   const { session, language } = facts;
   const { texts } = language;
   const words = workbenchWords(language);
-  if (session.model === null) return html`<div class="side answers"><slot name="empty"></slot></div>`;
   return html`<div class="side answers">
     <section class="card plan" part="plan" aria-label=${texts.plan.region}>${plan(facts, bench)}</section>
     <section class="card tabbed" part="quality">
@@ -186,18 +171,30 @@ function answersSide(facts: Facts, bench: Bench): TemplateResult {
 }
 
 /** The result: its figures, file, notes, and details of the computation. */
-function plan(facts: Facts, { replaced }: Bench): TemplateResult {
+function plan(facts: Facts, bench: Bench): TemplateResult {
   const { session, language } = facts;
+  const { replaced } = bench;
   const { result } = session;
   if (result === null) return noPlan(facts);
   return html`
     <div class="${session.busy?.task === "plan" ? "replanning" : ""}">
       ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${exposure(facts, result)}
     </div>
-    ${downloadButton(facts)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warningsPanel(facts)}
+    ${downloadButton(facts)} ${findingsLine(facts, bench)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warningsPanel(facts)}
     ${comparison(result, language)}
     ${details(result, language)}
   `;
+}
+
+/** One line about the findings, which leads to them. */
+function findingsLine({ session: { checks }, language }: Facts, { go }: Bench): TemplateResult {
+  const words = workbenchWords(language).findings;
+  const { check } = checks;
+  if (check === null) return html`<p class="findings quiet">${checks.error === null ? words.checking : words.unchecked}</p>`;
+  const kinds = kindsOf(check);
+  return html`<button class="findings link ${check.verdict}" @click=${() => go("check", "row")}>
+    ${kinds === 0 ? words.none : check.verdict === "reject" ? words.reject({ kinds }) : words.review({ kinds })}
+  </button>`;
 }
 
 /** What uniform layers cost in place of adaptive ones that the printer does not take. */
@@ -271,7 +268,7 @@ function sheet(facts: Facts, bench: Bench): TemplateResult | typeof nothing {
   const isOfPath = isStep(sheet);
   return html`<section class="sheet" part=${sheet} data-sheet=${sheet}>
     <div class="tab-row">
-      ${isOfPath ? html`${stepTitle(facts, sheet)} ${undoButtons(facts)}` : html`<h2>${namesOf(facts)[sheet]}</h2>`}
+      ${isOfPath ? html`<h2 id="step-title" tabindex="-1">${workbenchWords(facts.language).steps[sheet]}</h2> ${undoButtons(facts)}` : html`<h2>${namesOf(facts)[sheet]}</h2>`}
       <button class="small close" @click=${() => open(null)}>${facts.language.texts.notices.close}</button>
     </div>
     ${isOfPath

@@ -25,7 +25,6 @@ export const workbenchWords = room("workbench", {
     check: "What would fail in print, and where it is.",
     hollow: "A hollow model takes less resin and pulls less at the film.",
     support: "Whatever begins in the air or leans far out needs a support.",
-    slice: "Say what you print with.",
   },
   prepare: "Prepare automatically",
   prepareHint: "Turns the model, supports it, hollows a large one, and checks the result.",
@@ -35,6 +34,14 @@ export const workbenchWords = room("workbench", {
   byHand: { rotate: "Turn by hand", drains: "Place holes by hand", supports: "Place points by hand" },
   /** Replaces features that a slicer for filament printers has itself. */
   filament: "Slicers of filament printers do this themselves.",
+  /** The findings in one line, which leads to them. */
+  findings: {
+    checking: "Checking …",
+    unchecked: "Not checked",
+    none: "No problems found",
+    review: "{kinds|one:# thing to look at|other:# things to look at}",
+    reject: "{kinds|one:# thing will fail|other:# things will fail}",
+  },
   /** Progress of each step in a few words. */
   states: {
     asFile: "As in the file",

@@ -51,6 +51,7 @@ export const fetchView = fetched(() => import("../../view/cusp-view.js"));
 /** Constant, since a new array would count as a change. */
 const NO_POINTS: CuspView["points"] = [];
 const NO_COPIES: readonly Standing[] = [];
+const NO_PLACES: readonly Mark[] = [];
 
 export interface Scaled {
   readonly height_mm: number;
@@ -69,9 +70,9 @@ const PROPERTIES = {
   layer: given(0),
   /** The chosen finding, on each copy. */
   marks: given<readonly Mark[]>([]),
-  /** Wall thickness below which the model is marked, mm; null hides the thickness colours. */
   /** All findings that need attention, on each copy. */
   places: given<readonly Mark[]>([]),
+  /** Wall thickness below which the model is marked, mm; null hides the thickness colours. */
   walls_mm: given<number | null>(null),
   rotation: given<Rotation>([0, 0, 0, 1]),
   /** Height of the scaled model, and the pose in which it has that height; null for the file's own size. */
@@ -188,6 +189,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
+    // The layout may put other content over the view, which makes room while the tools of an edit are shown.
+    this.toggleAttribute("editing", isEditing);
     return html`
       <h3 class="visually-hidden">${words.title}</h3>
       ${viewBar({
@@ -224,10 +227,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .limits=${shown?.limits ?? [0, 0]}
               .layer=${shown === null || showsHeat || isPlacing || walls_mm !== null ? null : this.layer}
               .marks=${this.marks}
+              .places=${isEditing ? NO_PLACES : this.places}
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
               .wall_mm=${walls_mm ?? FACTS.limits.wall_mm}
-              .places=${isEditing ? NO_PLACES : this.places}
               .weights=${this.weights}
               .saliency=${heat === "saliency" || this.#counts ? this.saliency : null}
               .heat=${heat}

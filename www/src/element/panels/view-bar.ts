@@ -100,6 +100,11 @@ export function viewBar(bar: ViewBar): TemplateResult {
 
 export const barStyles = css`
   .bar {
+    /* A layout may put it over the view. */
+    position: var(--cusp-bar-position, static);
+    z-index: 1;
+    inset: 0.625rem calc(0.625rem + var(--cusp-view-aside, 0px)) auto 0.625rem;
+    pointer-events: none;
     flex: none;
     display: flex;
     flex-wrap: wrap;
@@ -110,9 +115,14 @@ export const barStyles = css`
     font-weight: 550;
     line-height: 1.25;
   }
+  .bar > * {
+    pointer-events: auto;
+    background: var(--cusp-card);
+  }
   .group {
     display: flex;
     min-width: 0;
+    border-radius: 8px;
   }
   .switches {
     display: var(--cusp-view-switches, flex);

@@ -1,4 +1,7 @@
-/** Background queries after a plan: the mask of the selected layer, the price, the findings if requested, then the trade-off curve. */
+/**
+ * Background queries after a plan: the mask of the selected layer, the price, the findings if requested, the trade-off curve, and the
+ * findings if watched.
+ */
 import { asSlicerError, isAbort, type SlicerError } from "../../api/error.js";
 import type { Mask, Ordered, Slicer } from "../../api/index.js";
 import type { Price, Prices } from "../../api/wire.js";
@@ -67,8 +70,9 @@ export class BackgroundQueries {
         const fetched =
           (await this.#fetchMask(result)) ||
           (await this.#fetchPrice(result)) ||
-          (await this.#checks.fetch(result)) ||
-          (await this.#fetchCurve(result));
+          (await this.#checks.fetch(result, false)) ||
+          (await this.#fetchCurve(result)) ||
+          (await this.#checks.fetch(result, true));
         if (!fetched) break;
       }
     } catch (error) {

@@ -25,17 +25,17 @@ export function checkedOf(check: Check, { plate_count, placements: all }: Report
   });
 }
 
+/** Number of kinds of findings as severe as the verdict; notes do not count. */
+export function kindsOf({ verdict, models }: Check): number {
+  return new Set(models.flatMap(({ findings }) => findings.filter(({ severity }) => severity === verdict).map(({ code }) => code))).size;
+}
+
 /** The finding on each copy with the same turn, its own copy first. */
 export function onCopies(finding: Finding, models: readonly Checked[]): readonly Finding[] {
   const copies_mm = models.find(({ found }) => found.findings.includes(finding))?.copies_mm ?? [];
   return copies_mm.map((place_mm) => moved(finding, place_mm));
 }
 
-function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Finding {
-  const to = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
-  const [low, high] = finding.bounds_mm;
-  return { ...finding, at_mm: to(finding.at_mm), bounds_mm: [to(low), to(high)] };
-}
 /** Maximum number of findings outlined at once; the largest of each kind come first. */
 const MOST_PLACES = 200;
 
@@ -46,3 +46,8 @@ export function placesOf(models: readonly Checked[]): readonly Finding[] {
     .slice(0, MOST_PLACES);
 }
 
+function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Finding {
+  const to = ([x, y, z]: Place): [number, number, number] => [x + x_mm, y + y_mm, z];
+  const [low, high] = finding.bounds_mm;
+  return { ...finding, at_mm: to(finding.at_mm), bounds_mm: [to(low), to(high)] };
+}

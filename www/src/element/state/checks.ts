@@ -1,4 +1,4 @@
-/** What will fail when the plan is printed: checked in the background once somebody wants to know, for each new plan. */
+/** Findings on each new plan, checked in the background if a panel, a shop or the page asks for them. */
 import { FACTS } from "../../api/facts.js";
 import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
@@ -73,6 +73,9 @@ export class Checks {
     if (isOpen) this.#host.wanted();
   }
 
+  /** True to check each plan once nothing else is to be done. */
+  isWatching = false;
+
   /** Returns true if the view shows wall thickness, on which no check depends. */
   get showsWalls(): boolean {
     return this.#showsWalls;
@@ -112,24 +115,28 @@ export class Checks {
     return this.chosen === null ? NO_MARKS : this.#marks;
   }
 
-  /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
-  choose(finding: Finding | null): void {
-    this.#chosen = finding === this.chosen ? null : finding;
   /** Findings of the current check that need attention, on each copy; empty unless a panel shows the findings. */
   get places(): readonly Finding[] {
     return this.#isOpen && this.check !== null ? this.#places : NO_MARKS;
   }
 
+  /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
+  choose(finding: Finding | null): void {
+    this.#chosen = finding === this.chosen ? null : finding;
     this.#marks = this.#chosen === null ? NO_MARKS : onCopies(this.#chosen, this.models);
     if (this.chosen === null) this.#host.changed();
     else this.#host.look(this.chosen.layers[0]);
   }
 
-  /** Checks a plan; returns false if not needed. */
-  async fetch(result: Result): Promise<boolean> {
+  /**
+   * Checks a plan; returns false if not needed.
+   *
+   * @param isIdle true if nothing else is to be done
+   */
+  async fetch(result: Result, isIdle: boolean): Promise<boolean> {
     const limits = this.#limits;
     const of = { result, limits };
-    if (!(this.#isOpen || limits !== null) || this.isCurrent) return false;
+    if (!(this.#isOpen || limits !== null || (isIdle && this.isWatching)) || this.isCurrent) return false;
     const { plate } = result.report;
     try {
       const check = await this.#slicer.check(limits ?? {}, { plate });
@@ -160,8 +167,8 @@ export class Checks {
     this.#of = of;
     this.last = check;
     this.models = check === null ? [] : checkedOf(check, of.result.report);
+    this.#places = placesOf(this.models);
     this.#error = error;
     this.#chosen = null;
   }
 }
-    this.#places = placesOf(this.models);

@@ -3,6 +3,9 @@ import { filling } from "./shared.js";
 
 export const modelViewStyles = css`
   ${filling}
+  :host {
+    position: relative;
+  }
   /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
   .stage {
     flex: 1 1 auto;
@@ -38,6 +41,7 @@ export const modelViewStyles = css`
       position: relative;
       width: 16rem;
       min-height: 0;
+      margin-top: var(--cusp-view-head, 0px);
     }
     .beside > section {
       position: absolute;

@@ -90,8 +90,8 @@ export const legendStyles = css`
   .legend {
     display: var(--cusp-view-legend, block);
     position: absolute;
-    inset-block-start: 0.75rem;
-    inset-inline-end: 0.75rem;
+    inset-block-start: calc(0.75rem + var(--cusp-view-head, 0px));
+    inset-inline-end: calc(0.75rem + var(--cusp-view-aside, 0px));
     width: 11rem;
     max-width: calc(100% - 1.5rem);
     padding: 0.5rem 0.625rem;

@@ -100,6 +100,8 @@ export class Cameras {
   #aligned = false;
   #size_mm: Triple = [1, 1, 1];
   #view: readonly [number, number] = [1, 1];
+  /** Width of the strip at the right that other content covers, CSS pixels. */
+  #aside_px = 0;
   /** Viewpoint of the free camera before the view was aligned, to restore afterwards. */
   #left: Viewpoint | null = null;
   #flight: Flight | null = null;
@@ -127,13 +129,17 @@ export class Cameras {
     this.controls.dampingFactor = 0.12;
   }
 
-  /** Sets the size of the view. A camera not yet moved by the user keeps showing the whole model. */
-  setView(width_px: number, height_px: number): void {
+  /**
+   * Sets the size of the view. A camera not yet moved by the user keeps showing the whole model.
+   *
+   * @param aside_px width of a strip at the right that is covered: the scene is centred in the rest
+   */
+  setView(width_px: number, height_px: number, aside_px = 0): void {
     const at = this.#aligned ? this.#left : this.#viewpoint;
     const isFirst = this.#flight === null && at !== null && areSame(at, this.#first);
     this.#view = [width_px, height_px];
-    this.#free.aspect = width_px / height_px;
-    this.#free.updateProjectionMatrix();
+    this.#aside_px = Math.min(aside_px, width_px / 2);
+    this.#shape(this.#free);
     if (!isFirst) return;
     if (this.#aligned) this.#left = this.#first;
     else {
@@ -213,7 +219,7 @@ export class Cameras {
   /** Distance at which a length across the line of sight covers this many pixels of the view; at most that of the whole model. */
   distanceFor(length_mm: number, pixels: number): number {
     const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
-    const whole = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
+    const whole = distanceOf(this.#size_mm, FIRST, this.#aspect);
     return Math.min(whole, (this.#view[1] * length_mm) / (2 * slope * pixels));
   }
 
@@ -221,14 +227,23 @@ export class Cameras {
   tried({ position, target }: Viewpoint): PerspectiveCamera {
     const camera = perspective();
     const away = new Vector3(...position).distanceTo(new Vector3(...target));
-    camera.aspect = this.#free.aspect;
     camera.near = 0.005 * away;
     camera.far = away + 40 * Math.hypot(...this.#size_mm);
     camera.position.set(...position);
     camera.lookAt(new Vector3(...target));
     camera.updateMatrixWorld();
-    camera.updateProjectionMatrix();
+    this.#shape(camera);
     return camera;
+  }
+
+  /** Middle of the uncovered part of the view, CSS pixels. */
+  get middle(): readonly [number, number] {
+    return [(this.#view[0] - this.#aside_px) / 2, this.#view[1] / 2];
+  }
+
+  /** Width of the uncovered part of the view, CSS pixels. */
+  get width_px(): number {
+    return this.#view[0] - this.#aside_px;
   }
 
   /** Viewpoint of the free camera, or the end of its flight. */
@@ -239,7 +254,8 @@ export class Cameras {
   /** Returns true if a camera at this viewpoint has a point within its view, not at the very edge. Ignores occlusion. */
   shows(from: Viewpoint, point: Vector3): boolean {
     const { x, y, z } = point.clone().project(this.tried(from));
-    return Math.max(Math.abs(x), Math.abs(y)) < SIGHT && z < 1;
+    const covered = this.#aside_px / this.#view[0];
+    return Math.max(Math.abs(x + covered) / (1 - covered), Math.abs(y)) < SIGHT && z < 1;
   }
 
   moveTo(to: Viewpoint, duration_ms: number): void {
@@ -314,12 +330,12 @@ export class Cameras {
     const room = Math.max(1, height - inset.top_px - inset.bottom_px);
     // The scale must not change during a turn around z, so the diagonal counts.
     const across = Math.hypot(this.#size_mm[0], this.#size_mm[1]);
-    const perPixel = Math.max((top - bottom) / room, heights === null ? across / (0.94 * width) : 0, 1e-9);
+    const perPixel = Math.max((top - bottom) / room, heights === null ? across / (0.94 * this.width_px) : 0, 1e-9);
     const lowest = bottom - inset.bottom_px * perPixel;
     const z = this.controls.target.z;
     Object.assign(this.#side, {
-      left: (-width / 2) * perPixel,
-      right: (width / 2) * perPixel,
+      left: -this.middle[0] * perPixel,
+      right: (width - this.middle[0]) * perPixel,
       bottom: lowest - z,
       top: lowest + height * perPixel - z,
       near: 0.01 * reach,
@@ -347,10 +363,24 @@ export class Cameras {
     this.controls.dispose();
   }
 
+  /** Aspect ratio of the uncovered part of the view. */
+  get #aspect(): number {
+    return this.width_px / this.#view[1];
+  }
+
+  /** Gives a camera the shape of the view, with the axis through the middle of its uncovered part. */
+  #shape(camera: PerspectiveCamera): void {
+    const [width, height] = this.#view;
+    camera.aspect = width / height;
+    const slope = Math.tan(MathUtils.degToRad(FIELD_OF_VIEW_DEG / 2));
+    camera.filmOffset = (camera.getFilmWidth() * slope * this.#aside_px) / height;
+    camera.updateProjectionMatrix();
+  }
+
   /** Initial viewpoint, which shows the whole model. */
   get #first(): Viewpoint {
     const middle = this.#size_mm[2] / 2;
-    const [x, y, z] = FIRST.toArray().map((part) => part * distanceOf(this.#size_mm, FIRST, this.#free.aspect)) as [number, number, number];
+    const [x, y, z] = FIRST.toArray().map((part) => part * distanceOf(this.#size_mm, FIRST, this.#aspect)) as [number, number, number];
     return { position: [x, y, middle + z], target: [0, 0, middle] };
   }
 
@@ -372,7 +402,7 @@ export class Cameras {
   }
 
   #limit(): void {
-    const distance = distanceOf(this.#size_mm, FIRST, this.#free.aspect);
+    const distance = distanceOf(this.#size_mm, FIRST, this.#aspect);
     this.controls.minDistance = Math.min(NEAREST * distance, this.#nearest);
     this.controls.maxDistance = FARTHEST * distance;
   }

@@ -146,11 +146,12 @@ export class Scene {
     return this.#gizmo.isHot;
   }
 
-  setSize(width_px: number, height_px: number): void {
+  /** @param aside_px width of a strip at the right that other content covers */
+  setSize(width_px: number, height_px: number, aside_px: number): void {
     if (width_px < 1 || height_px < 1) return;
     this.#size = [width_px, height_px];
-    this.cameras.setView(width_px, height_px);
-    this.#gizmo.fit(width_px / height_px);
+    this.cameras.setView(width_px, height_px, aside_px);
+    this.#gizmo.fit(this.cameras.width_px / height_px);
     this.drawNow();
   }
 
@@ -249,13 +250,13 @@ export class Scene {
     this.invalidate();
   }
 
-  /** Highlights these facets; null: none. */
   /** Outlines these places. */
   setPlaces(places: readonly Mark[]): void {
     this.#places.set(places, this.model.size_mm);
     this.invalidate();
   }
 
+  /** Highlights these facets; null: none. */
   setFace(facets: readonly number[] | null): void {
     const { geometry } = this.#face;
     geometry.dispose();
@@ -278,7 +279,7 @@ export class Scene {
 
   /** Facet and height in the middle of the view from a viewpoint. */
   seenFrom(place: Viewpoint): Promise<Hit | null> {
-    return this.#picked(this.cameras.tried(place), [this.#size[0] / 2, this.#size[1] / 2]);
+    return this.#picked(this.cameras.tried(place), this.cameras.middle);
   }
 
   /** Ray through a point of the view, CSS pixels, in the file's pose. */
@@ -323,8 +324,8 @@ export class Scene {
     this.plate.dispose();
     this.copies.dispose();
     this.#marker.dispose();
-    this.markers.dispose();
     this.#places.dispose();
+    this.markers.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();
