@@ -15,6 +15,7 @@ const POLICY = [
   "connect-src 'self'",
   "style-src 'self'",
   "img-src 'self'",
+  "manifest-src 'self'",
   "form-action 'none'",
   "base-uri 'none'",
 ].join("; ");
@@ -48,6 +49,30 @@ function leanTemplates(): Plugin {
     transform: {
       filter: { id: /\/src\/[^?]*\.ts$/, code: /\b(css|html)`/ },
       handler: (code) => code.replace(/css`[^`]*`/g, lean).replace(/\n\s+/g, "\n"),
+    },
+  };
+}
+
+/** Adds the manifest with which browsers install the page as an app. */
+function appManifest(): Plugin {
+  return {
+    name: "cusp:app-manifest",
+    apply: "build",
+    transformIndexHtml: () => [{ tag: "link", attrs: { rel: "manifest", href: "./manifest.webmanifest" }, injectTo: "head" }],
+    generateBundle(_options, bundle) {
+      const icon = Object.values(bundle).find((it) => it.type === "asset" && it.originalFileNames.includes("src/page/icon.svg"));
+      if (icon === undefined) this.error("the page has no icon");
+      const manifest = {
+        name: "Cusp",
+        description: "Adaptive layers for resin printing",
+        start_url: "./",
+        scope: "./",
+        display: "standalone",
+        background_color: "#f4f5f7",
+        theme_color: "#1f4f96",
+        icons: [{ src: icon.fileName, sizes: "any", type: "image/svg+xml", purpose: "any" }],
+      };
+      this.emitFile({ type: "asset", fileName: "manifest.webmanifest", source: JSON.stringify(manifest) });
     },
   };
 }
@@ -90,7 +115,7 @@ function notices(): Plugin {
 export default defineConfig({
   // Relative URLs, so that the folder works under any path of any host.
   base: "./",
-  plugins: [contentSecurityPolicy(), leanTemplates(), offlineFiles(), notices(), anyLanguage, dictionaries(new URL(".", import.meta.url))],
+  plugins: [contentSecurityPolicy(), leanTemplates(), appManifest(), offlineFiles(), notices(), anyLanguage, dictionaries(new URL(".", import.meta.url))],
   // Prebundling by the development server would bypass the plugin.
   optimizeDeps: { exclude: ["uplot"] },
   worker: { format: "es" },

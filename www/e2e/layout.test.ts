@@ -154,7 +154,9 @@ async function inSight(page: Page, selectors: readonly string[]): Promise<void> 
 test("at 1280 × 800 nothing scrolls from the drop to the download, nothing moves while a plan is made, and the view grows with the window", async () => {
   const page = await start("?rays=512", DESKTOP);
   expect(await overflow(page)).toEqual([0, 0]);
-  await inSight(page, ["[part=drop]", "#printer"]);
+  await inSight(page, [".first h2", "[part=drop]", "#printer", "cusp-figure canvas"]);
+  // Settings appear with a model.
+  expect(await page.locator("#tolerance, .side").count()).toBe(0);
   await drop(page, ball);
   await state(page, "done");
   await page.waitForSelector("cusp-view");
@@ -192,6 +194,13 @@ test("at 1280 × 800 nothing scrolls from the drop to the download, nothing move
     return (box?.width ?? 0) * (box?.height ?? 0);
   };
   const before = await area();
+  for (const width of [1280, 1180]) {
+    await page.setViewportSize({ width, height: 800 });
+    await expect.poll(async () => (await page.locator("cusp-view").boundingBox())?.width ?? 0).toBeGreaterThanOrEqual(0.599 * width);
+    const header = await page.locator("header").boundingBox();
+    const view = await page.locator("[part=view]").boundingBox();
+    expect(view?.height).toBeGreaterThan(800 - (header?.height ?? 0) - 4);
+  }
   // The largest element on the screen.
   const others = await page.locator(".side > *").evaluateAll((them) => them.map((it) => it.clientWidth * it.clientHeight));
   expect(Math.max(...others)).toBeLessThan(before);

@@ -2,6 +2,7 @@
 import { unzipSync } from "fflate";
 import type { Locator, Page } from "playwright-core";
 import { expect, test } from "vitest";
+import type { CuspView } from "../src/view/cusp-view.js";
 import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import type { ModelReport, Report } from "../src/api/wire.js";
 import { broken } from "./axe.js";
@@ -137,6 +138,48 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   expect(await page.getByLabel("Hollow, with walls of").inputValue()).toBe("2");
   expect(await page.evaluate(() => location.search)).toBe(before);
   expect((await own(page)).supported?.points).toEqual(supported?.points);
+});
+
+test("each plan is checked by itself; one line leads to the findings, which are outlined, and a button remedies the worst", async () => {
+  const page = await opened(DESKTOP);
+  const line = page.locator("cusp-workbench button.findings");
+  await line.waitFor();
+  expect(await line.innerText()).toMatch(/^\d+ things? will fail$/);
+  // No step is ticked while the check fails.
+  expect(await row(page).locator(".badge.done").count()).toBe(0);
+  await line.click();
+  await expect.poll(() => title(page).innerText()).toBe("Check");
+  const outlined = (): Promise<number> => page.locator("cusp-view").evaluate((view: CuspView) => view.places.length);
+  await page.locator("cusp-view").waitFor({ state: "attached" });
+  await expect.poll(outlined).toBeGreaterThan(0);
+  expect((await own(page)).supported).toBeUndefined();
+  await page.getByRole("button", { name: "Add supports" }).first().click();
+  await settled(page);
+  expect((await own(page)).supported?.points.length).toBeGreaterThan(4);
+  await line.waitFor();
+  await expect.poll(() => line.innerText()).not.toMatch(/will fail/);
+  await step(page, "Orient").click();
+  await expect.poll(outlined).toBe(0);
+});
+
+test("after a download the page says what to do with the file, until the plan changes; the page can be installed", async () => {
+  const page = await opened(DESKTOP, "&printer=saturn-3");
+  await downloaded(page);
+  const card = page.getByRole("status", { name: "Saved file" });
+  expect(await card.innerText()).toMatch(/^cubes-cusp\.goo is saved\.\s+Copy it to the printer’s USB stick/);
+  await card.getByRole("button", { name: "Download test towers" }).waitFor();
+  expect(await broken(page)).toEqual([]);
+  await page.keyboard.press("Escape");
+  await card.waitFor({ state: "detached" });
+  await downloaded(page);
+  await card.waitFor();
+  await page.getByLabel("Tolerance", { exact: true }).fill("0.08");
+  await card.waitFor({ state: "detached" });
+
+  const address = await page.locator("link[rel=manifest]").evaluate((it) => (it as HTMLLinkElement).href);
+  const manifest = (await (await page.request.get(address)).json()) as { start_url: string; display: string; icons: { src: string }[] };
+  expect([manifest.start_url, manifest.display]).toEqual(["./", "standalone"]);
+  for (const { src } of manifest.icons) expect((await page.request.get(new URL(src, address).href)).ok()).toBe(true);
 });
 
 test("by keyboard alone, with Tab and keys, a first visit gets through the steps to the file; its tour takes no focus", async () => {

@@ -40,7 +40,7 @@ const FRAMEWORKS = {
 } as const;
 
 /** Messages of the page, which is not in the package. */
-const PAGE_ROOMS = /^(page|print|visit|workbench)\./;
+const PAGE_ROOMS = /^(after|page|print|visit|workbench)\./;
 
 const WASM = "cusp_slicer_bg.wasm";
 

@@ -2,6 +2,7 @@
 import "../page/texts.js";
 import "../page/visit-texts.js";
 import "../print/texts.js";
+import "../workbench/after-download.js";
 import "../workbench/texts.js";
 import "./findings.js";
 import { languageOf } from "./index.js";

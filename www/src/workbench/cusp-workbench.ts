@@ -30,6 +30,7 @@ export class CuspWorkbench extends SlicerElement {
   #answer: AnswerPanel = "quality";
   #sheet: Sheet | null = null;
   #plot: PlotPlace | null = null;
+  #saved: string | null = null;
   /** The last plan that gave way to uniform layers. */
   #replaced: Replaced | null = null;
   readonly #resized = new ResizeObserver(() => {
@@ -41,7 +42,9 @@ export class CuspWorkbench extends SlicerElement {
     super();
     define("cusp-layer-slider", CuspLayerSlider);
     this.session.checks.isWatching = true;
+    this.addEventListener("cusp-export", ({ detail }) => this.#set(() => (this.#saved = detail.name)));
     this.addEventListener("cusp-plan", () => {
+      this.#saved = null;
       const { settings } = this.session;
       // Once for a printer: after an undo, adaptive layers stay.
       if (this.#replaced !== null && isOf(this.#replaced, settings)) return;
@@ -68,6 +71,12 @@ export class CuspWorkbench extends SlicerElement {
     this.#resized.disconnect();
   }
 
+  /** Also dismisses the note on a saved file. */
+  override cancel(): void {
+    super.cancel();
+    this.#set(() => (this.#saved = null));
+  }
+
   protected override readonly opensProjects = true;
 
   protected override layout(facts: Facts): TemplateResult {
@@ -83,6 +92,8 @@ export class CuspWorkbench extends SlicerElement {
       open: (sheet) => this.#open(sheet),
       placed: (plot) => this.#set(() => (this.#plot = plot)),
       prepare: () => void this.#prepare(),
+      saved: this.#saved,
+      dismiss: () => this.#set(() => (this.#saved = null)),
     });
   }
 

@@ -464,6 +464,9 @@ export const workbenchStyles = css`
     padding-inline: 0.75rem;
     pointer-events: none;
   }
+  .wide .overlay {
+    padding-inline-end: calc(0.75rem + var(--cusp-view-aside, 0px));
+  }
   .overlay > * {
     width: 100%;
     max-width: 34rem;
@@ -479,6 +482,18 @@ export const workbenchStyles = css`
   }
   .overlay .notice {
     background-image: linear-gradient(var(--cusp-note-wash), var(--cusp-note-wash));
+  }
+  .saved {
+    display: grid;
+    gap: 0.375rem;
+    font-size: 0.875rem;
+    overflow-wrap: anywhere;
+  }
+  .saved .tools {
+    display: flex;
+    flex-wrap: wrap;
+    justify-content: end;
+    gap: 0.5rem;
   }
   /* Appears after a delay, so that quick plans do not flash. */
   .progressing.quick {

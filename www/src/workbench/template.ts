@@ -21,6 +21,7 @@ import type { Facts } from "../element/facts.js";
 import { modelCard, uniformOffer } from "../element/panels/model-card.js";
 import type { PlotPlace } from "../element/panels/profile-chart.js";
 import { comparison, details, figures } from "../element/panels/summary.js";
+import { FetchedPanel } from "../element/parts/part.js";
 import { problemBox } from "../element/parts/problem-box.js";
 import { progressBar } from "../element/parts/progress.js";
 import type { Fix } from "../element/state/fixes.js";
@@ -51,6 +52,9 @@ export interface Bench {
   placed(plot: PlotPlace): void;
   /** Prepares the selected model for print. */
   prepare(): void;
+  /** Name of the print file saved last, until it is dismissed or the plan changes; null without one. */
+  saved: string | null;
+  dismiss(): void;
 }
 
 export function template(facts: Facts, bench: Bench): TemplateResult {
@@ -64,7 +68,7 @@ export function template(facts: Facts, bench: Bench): TemplateResult {
       <section class="stage" aria-label=${isEmpty ? language.texts.open.region : language.texts.view.region}>
         ${isWide || isEmpty ? nothing : path(facts, isStep(bench.sheet) ? bench.sheet : null, false, (step) => bench.go(step, "row"))}
         ${isEmpty ? start(facts) : view(facts, bench)}
-        <div class="overlay">${overlay(facts)}</div>
+        <div class="overlay">${overlay(facts)} ${afterSaving(facts, bench)}</div>
       </section>
       ${isEmpty ? nothing : isWide ? answersSide(facts, bench) : html`${sheet(facts, bench)} ${bar(facts, bench)}`}
     </div>
@@ -122,6 +126,14 @@ function overlay(facts: Facts): TemplateResult {
           ${progressBar(busy, language, () => session.cancel())}
         </div>`}
   `;
+}
+
+/** Fetched with the first file that is saved. */
+const afterCode = new FetchedPanel("saved", () => import("./after-download.js"));
+
+function afterSaving(facts: Facts, { saved, dismiss }: Bench): TemplateResult | typeof nothing {
+  if (saved === null) return nothing;
+  return afterCode.code?.afterDownload(facts, saved, dismiss) ?? afterCode.instead(facts.element, facts.language);
 }
 
 function choicesSide(facts: Facts, bench: Bench): TemplateResult {

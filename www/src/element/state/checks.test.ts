@@ -2,6 +2,7 @@ import { expect, test } from "vitest";
 import { SlicerError } from "../../api/error.js";
 import { SCHEMA, type Check } from "../../api/index.js";
 import type { Finding } from "../../api/wire.js";
+import { kindsOf } from "./checked.js";
 import { planOf } from "./fake-slicer.js";
 import { planned, session, settle, slicer } from "./session-fixture.js";
 
@@ -49,6 +50,22 @@ test("nothing is checked before somebody wants to know", async () => {
   expect(asked()).toBe(1);
   await answer(checkOf("cup"));
   expect(session.checks.models[0]?.found.findings).toHaveLength(1);
+});
+
+test("if watched, a plan is checked once its curve is known, and nothing is outlined until a panel shows the findings", async () => {
+  session.checks.isWatching = true;
+  await planned();
+  while (slicer.last.what !== "check") {
+    expect(["mask", "tradeoff"]).toContain(slicer.last.what);
+    slicer.last.reject(new SlicerError("no-plan", "not needed here"));
+    await settle();
+  }
+  await answer(checkOf("cup", "island"));
+  expect(session.checks.check?.verdict).toBe("review");
+  expect(kindsOf(checkOf("cup", "cup", "island"))).toBe(2);
+  expect(session.checks.places).toEqual([]);
+  await open();
+  expect(session.checks.places.map(({ code }) => code)).toEqual(["cup", "island"]);
 });
 
 test("each new plan is checked again while the panel is open, and the earlier check counts no more", async () => {
