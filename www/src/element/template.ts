@@ -139,7 +139,7 @@ function results(drawn: Drawn, result: Result): TemplateResult {
             ${figures(result, session.shown ?? result.report, language)} ${uniformOffer(session, language)} ${priceRow(session.pricing.price, language)} ${downloadButton(drawn)} ${fileLine(drawn, result)}
           </div>
           ${comparison(result, language)}
-          ${panels.has("model") ? nothing : warningsPanel(drawn)} ${details(result, language)}
+          ${panels.has("model") ? nothing : warningsPanel(drawn)} ${details(drawn.element, result, language)}
         </section>`
       : nothing}
     ${panels.has("view") ? viewCard(drawn) : nothing}

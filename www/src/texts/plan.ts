@@ -69,8 +69,7 @@ export const plan = {
   },
   quality: {
     title: "Quality",
-    quick: "Quicker",
-    fine: "Finer",
+    grades: { draft: "Draft", standard: "Standard", fine: "Fine" },
     waiting: "Looking for the best plans",
     said: "{head} {error}, {time}, {layers|one:# layer|other:# layers}",
     axis: "Chart of the print time by quality ({head})",
@@ -120,6 +119,9 @@ export const plan = {
     hint: "Click to see a layer. Drag to zoom.",
     touchHint: "Tap to see a layer. Pinch to zoom.",
     at: "At {height}: {density}",
+    /** The thickness of a layer, its height, and the reason. */
+    because: "{thickness} at {height}: {reason}",
+    reasons: { level: "the surface is nearly level", sloping: "the surface slopes", steep: "the surface is steep" },
     whole: "Whole model",
     heights: "Height (mm)",
     none: "No plan yet",

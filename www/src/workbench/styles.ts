@@ -529,6 +529,9 @@ export const workbenchStyles = css`
     opacity: 0.6;
     transition: opacity 150ms 250ms;
   }
+  .plan :is(th, td) {
+    white-space: normal;
+  }
   .exposure {
     margin-top: 0.25rem;
   }

@@ -194,7 +194,7 @@ function plan(facts: Facts, bench: Bench): TemplateResult {
     </div>
     ${downloadButton(facts)} ${findingsLine(facts, bench)} ${fileLine(facts, result)} ${givenWay(facts, result, replaced)} ${warningsPanel(facts)}
     ${comparison(result, language)}
-    ${details(result, language)}
+    ${details(facts.element, result, language)}
   `;
 }
 

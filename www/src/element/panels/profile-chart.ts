@@ -35,6 +35,13 @@ const MANY_DIGITS = 0.888;
 /** Number of layers that a page key moves by. */
 const PAGE = 10;
 
+/** Least densities of nearly level and of sloping surfaces: the cosine of their slope. */
+const LEVEL = 0.9;
+const SLOPING = 0.4;
+
+/** Reason for the thickness of layers, by the density of the metric of cusp heights. */
+const reasonOf = (density: number): "level" | "sloping" | "steep" => (density >= LEVEL ? "level" : density >= SLOPING ? "sloping" : "steep");
+
 const PROPERTIES = {
   data: given<ChartData | null>(null),
   layer: given(0),
@@ -180,8 +187,13 @@ export class CuspChart extends elementWith(PROPERTIES) {
   }
 
   /** Density of a bin and its height, as text. */
-  #at({ metric, bin_mm }: ChartData, bin: number, density: number): string {
+  #at({ metric, bin_mm, z_mm, thickness_mm }: ChartData, bin: number, density: number): string {
     const { texts, format } = this.language;
+    if (metric === "cusp") {
+      const height_mm = (bin + 0.5) * bin_mm;
+      const thickness = format.fine(thickness_mm[layerAt(z_mm, height_mm)] ?? 0);
+      return texts.chart.because({ thickness, height: format.height(height_mm), reason: texts.chart.reasons[reasonOf(density)] });
+    }
     const value = METRICS[metric].density(density, format);
     return texts.chart.at({ height: format.height((bin + 0.5) * bin_mm), density: texts.metrics[metric].density({ value }) });
   }

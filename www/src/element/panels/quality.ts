@@ -1,6 +1,7 @@
 /** The trade-off curve as a picture with a slider; each notch is a best plan, fastest first. */
 import { css, html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
+import { usualOf } from "../../api/facts.js";
 import type { TradeoffPoint } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
 import { sentence } from "../state/comparison.js";
@@ -41,6 +42,21 @@ export function pictureOf(points: readonly Planned[], { report }: Pick<Result, "
   });
   const dots = points.map(mark).reverse();
   return { dots, own: mark(report), finest: mark(finest), coarsest: mark(coarsest) };
+}
+
+/** A quality with a name, and the index of its point. */
+export interface Grade {
+  readonly name: "draft" | "standard" | "fine";
+  readonly index: number;
+}
+
+/** The loosest point, the one nearest to the usual tolerance, and the tightest; the middle one only if it is another. */
+export function gradesOf(points: readonly Pick<TradeoffPoint, "tolerance">[], usual: number): readonly Grade[] {
+  const off = (index: number): number => Math.abs((points[index]?.tolerance ?? Infinity) - usual);
+  const last = points.length - 1;
+  const middle = points.reduce((best, _, index) => (off(index) < off(best) ? index : best), 0);
+  const standard: Grade[] = middle > 0 && middle < last ? [{ name: "standard", index: middle }] : [];
+  return [{ name: "draft", index: last }, ...standard, { name: "fine", index: 0 }];
 }
 
 /** Shortest and longest print time: the lower and the upper edge of the picture. */
@@ -120,11 +136,25 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         margin: 0 calc(3% - 0.5rem);
         accent-color: var(--cusp-accent);
       }
-      .ends {
+      .grades {
         direction: ltr;
         display: flex;
+        gap: 0.25rem;
         justify-content: space-between;
-        margin-top: -0.25rem;
+      }
+      .grades button {
+        display: grid;
+        gap: 0;
+        padding: 0.25rem;
+        border: 0;
+        font-size: 0.8125rem;
+      }
+      .grades small {
+        color: var(--cusp-quiet);
+        font-weight: 400;
+      }
+      .grades [aria-pressed="true"] {
+        color: var(--cusp-accent);
       }
       .gain {
         margin-top: 0.5rem;
@@ -258,7 +288,18 @@ export class CuspQuality extends elementWith(PROPERTIES) {
         .value=${live(String(notchOf(points, report)))}
         @input=${this.#moved}
       />
-      <div class="ends quiet"><span>${words.quick}</span><span>${words.fine}</span></div>
+      <div class="grades">
+        ${gradesOf(points, usualOf(report.metric, report.print_file.format)).map(
+          ({ name, index }) => html`<button
+            class="small"
+            aria-pressed=${points.length - 1 - index === notchOf(points, report) ? "true" : "false"}
+            ?disabled=${this.isFixed}
+            @click=${() => this.#choose(index)}
+          >
+            ${words.grades[name]} <small>${METRICS[report.metric].error(points[index]?.max_error ?? 0, format)}</small>
+          </button>`,
+        )}
+      </div>
       <ul class="key quiet figures">
         <li><i class="this"></i>${texts.plan.own}</li>
         <li><i class="point"></i>${words.points}</li>
@@ -271,9 +312,12 @@ export class CuspQuality extends elementWith(PROPERTIES) {
 
   readonly #moved = (event: Event): void => {
     const notch = Number((event.target as HTMLInputElement).value);
-    const index = (this.points?.length ?? 1) - 1 - notch;
-    this.dispatchEvent(new CustomEvent<number>("cusp-point", { detail: index }));
+    this.#choose((this.points?.length ?? 1) - 1 - notch);
   };
+
+  #choose(index: number): void {
+    this.dispatchEvent(new CustomEvent<number>("cusp-point", { detail: index }));
+  }
 }
 
 const dot = ({ x, y }: Mark): string => `M${x} ${y}h0`;

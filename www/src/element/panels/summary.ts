@@ -1,13 +1,12 @@
 /** Figures of a result: print time, layers, resin, savings, and a comparison with uniform layers. */
-import { css, html, nothing, type TemplateResult } from "lit";
+import { css, html, nothing, type LitElement, type TemplateResult } from "lit";
 import { isFilament } from "../../api/facts.js";
-import type { PrintThroughReport } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { rows, sentence } from "../state/comparison.js";
 import { METRICS } from "../state/metric.js";
 import type { Result, Shown } from "../state/result.js";
+import { FetchedPanel } from "../parts/part.js";
 import { styled } from "../parts/styled.js";
-import { undersidePicture } from "../parts/underside-picture.js";
 
 export const summaryStyles = css`
   details.quiet summary {
@@ -233,37 +232,23 @@ export function comparison(result: Result, { texts, format }: Language): Templat
   </div>`;
 }
 
-const STAGES = ["load", "ldi", "profile", "plan", "masks"] as const;
+const detailsCode = new FetchedPanel("details", () => import("./run-details.js"));
+/** Elements whose details were opened. */
+const opened = new WeakSet<LitElement>();
 
-/** Details of the computation, in a section that is initially collapsed. */
-export function details({ report }: Result, { texts: { details: words }, format }: Language): TemplateResult {
-  const { mask, metric, timings_ms } = report;
-  const error = (value: number): string => METRICS[metric].error(value, format);
-  const fact = (name: string, value: string | TemplateResult): TemplateResult => html`<div><dt>${name}</dt><dd>${value}</dd></div>`;
-  const undersides = (found: PrintThroughReport): TemplateResult => {
-    const { before, after } = found;
-    const [mean, largest, off] = [after.mean_mm, after.largest_mm, before.mean_mm].map((mm) => format.error("deviation", mm)) as [string, string, string];
-    const text = words.undersidesOff({ mean, largest, before: off });
-    return html`${undersidePicture(found, text)} ${text}`;
-  };
+/** Details of the computation, in a section that is initially collapsed; fetched when opened. */
+export function details(element: LitElement, result: Result, language: Language): TemplateResult {
+  const { texts: { details: words }, format } = language;
+  const { report } = result;
   const method = report.gpu_method === "fill" || report.gpu_method === "peel" ? words.methods[report.gpu_method] : null;
   const how = [report.adapter, method].filter((part) => part !== null).join(", ");
   const ran = report.backend !== "gpu" ? words.cpu : how === "" ? words.gpu.bare : words.gpu.how({ how });
-  return html`<details class="quiet figures">
-    <summary>${words.ran({ where: ran, duration: format.duration(timings_ms.total) })}</summary>
-    <dl class="facts">
-      ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
-      ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
-      ${report.true_error === report.max_error ? nothing : fact(words.trueError, error(report.true_error))}
-      ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
-      ${metric === "deviation" ? nothing : fact(words.deviation, format.error("deviation", report.max_deviation_mm))}
-      ${report.print_through ? fact(words.undersides, undersides(report.print_through)) : nothing}
-      ${fact(words.flats, format.count(report.snapped_mm.length))}
-      ${fact(words.source, report.source === "exact" ? words.exact : words.sampled)}
-      ${fact(words.overhead, format.seconds(report.overhead_s))}
-      ${fact(words.mask, words.maskSize({ width: format.count(mask.width), height: format.count(mask.height), pitch: format.fine(mask.pitch_mm) }))}
-      ${fact(words.bins, words.binSize({ count: format.count(report.bins), bin: format.fine(report.bin_mm) }))}
-      ${fact(words.hits, format.count(report.models.reduce((sum, { hits }) => sum + hits, 0)))}
-    </dl>
+  const toggled = (): void => {
+    opened.add(element);
+    element.requestUpdate();
+  };
+  return html`<details class="quiet figures" @toggle=${toggled}>
+    <summary>${words.ran({ where: ran, duration: format.duration(report.timings_ms.total) })}</summary>
+    ${opened.has(element) ? (detailsCode.code?.runDetails(report, language) ?? detailsCode.instead(element, language)) : nothing}
   </details>`;
 }

@@ -165,9 +165,12 @@ export const chartStyles = css`
       display: block;
     }
   }
-  /* As a column beside the view: the key says what the axis means. */
+  /* As a column beside the view, which has the scale of colours. */
   @container (max-width: 15rem) {
     .density {
+      font-size: 0.75rem;
+    }
+    .colours {
       display: none;
     }
   }
