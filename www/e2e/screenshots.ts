@@ -34,16 +34,18 @@ async function printFile(page: Page, path: string): Promise<void> {
 }
 
 async function whole(page: Page, path: string): Promise<void> {
+  // Checked once nothing else is to do.
+  await page.locator("button.findings").waitFor();
   await page.waitForTimeout(500);
   await page.screenshot({ path });
 }
 
 /** The page as a workbench, slightly smaller than on a screen, to limit the size of the picture. */
-const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.7 };
+const DESKTOP = { viewport: { width: 1280, height: 800 }, deviceScaleFactor: 0.58 };
 
 const SHOTS: readonly Shot[] = [
   { name: "page-wide", options: DESKTOP },
-  { name: "page-orientation", options: { viewport: { width: 1280, height: 1240 } }, take: orientation },
+  { name: "page-orientation", options: { viewport: { width: 1700, height: 1600 } }, take: orientation },
   { name: "page-print-file", query: "?printer=mars-4-ultra", options: { viewport: { width: 960, height: 500 } }, take: printFile },
 ];
 

@@ -28,6 +28,14 @@ test("English replaces a message that a dictionary lacks", () => {
   expect(texts(french).steps[0][1]({ name: "{name}" })).toBe("Begin with {name}.");
 });
 
+test("texts that are in use get the messages that arrive later", () => {
+  const own: Record<string, string> = {};
+  const { units } = texts(spoken("de", own));
+  expect(units.inch).toBe("inches");
+  own["test.units.inch"] = "Zoll";
+  expect({ ...units }).toEqual({ inch: "Zoll", foot: "feet" });
+});
+
 test("fields, lists and formats of values", () => {
   ENGLISH.set("test.found", "{best.layer_mm|mm} of {known}: {size_mm|exact}; {size_mm.1|count}");
   const values = { best: { layer_mm: 0.05 }, known: ["a", "b"], size_mm: [0.5, 2] };

@@ -59,7 +59,14 @@ function register(key: string, english: Tree): void {
 function bind(key: string, english: Tree, language: Spoken): unknown {
   if (typeof english === "string") return english.includes("{") ? (values: Given) => say(key, values, language) : language.message(key);
   if (Array.isArray(english)) return english.map((tree: Tree, i) => bind(`${key}.${i}`, tree, language));
-  return Object.fromEntries(Object.entries(english).map(([name, tree]) => [name, bind(under(key, name), tree, language)]));
+  const bound = {};
+  for (const [name, tree] of Object.entries(english)) {
+    const own = under(key, name);
+    // Looked up at each use, since the rest of a dictionary arrives later.
+    const isPlain = typeof tree === "string" && !tree.includes("{");
+    Object.defineProperty(bound, name, { enumerable: true, ...(isPlain ? { get: () => language.message(own) } : { value: bind(own, tree, language) }) });
+  }
+  return bound;
 }
 
 /** A bound message with values that it may need. */

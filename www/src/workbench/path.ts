@@ -60,10 +60,9 @@ export function stepPanel(facts: Facts, step: Step, go: (step: Step) => void, ta
   const byHand = isUnused ? nothing : handButton(facts, step, taken);
   const foot = stepFoot(facts, step, go);
   const isLast = step === STEPS.at(-1);
-  // Turning has no settings besides turning by hand.
   return html`<div class="panel" tabindex="0" role="group" aria-labelledby="step-title">
       ${step === "slice" ? nothing : html`<p class="hint quiet">${isUnused ? words.filament : words.hints[step]}</p>`}
-      ${first} ${step === "turn" ? byHand : nothing} ${isUnused ? nothing : contentOf(facts, step)} ${step === "turn" ? nothing : byHand}
+      ${first} ${isUnused ? nothing : contentOf(facts, step)} ${byHand}
       ${isLast ? foot : nothing}
     </div>
     ${isLast ? nothing : foot}`;

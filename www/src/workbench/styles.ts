@@ -307,8 +307,14 @@ export const workbenchStyles = css`
     align-items: center;
     gap: 0.25rem 0.5rem;
   }
+  .side .model:has(cusp-plate) {
+    min-height: 14rem;
+    max-height: 50%;
+  }
   .side .model > :is(h2, dl, .files, cusp-plate, p) {
     flex: 1 0 100%;
+    min-width: 0;
+    max-width: 100%;
     margin: 0;
   }
   .side .model dl {
@@ -528,6 +534,9 @@ export const workbenchStyles = css`
   .plan .replanning {
     opacity: 0.6;
     transition: opacity 150ms 250ms;
+  }
+  .plan table {
+    font-size: 0.8125rem;
   }
   .plan :is(th, td) {
     white-space: normal;

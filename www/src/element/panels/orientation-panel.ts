@@ -94,7 +94,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       </div>
       ${found === null && busy === null ? html`<p class="quiet hint">${words.hint}</p>` : nothing}
       ${found !== null && busy === null && !isCurrent ? html`<p class="stale">${words.stale}</p>` : nothing}
-      ${this.#aims(searched)} ${busy === null ? nothing : this.#progress(busy, searched)}
+      ${busy === null ? nothing : this.#progress(busy, searched)} ${this.#aims(searched)}
       ${found === null ? nothing : this.#results(searched, found)}
       <p class="visually-hidden" role="status">${this.#announcement(searched)}</p>
     `;
