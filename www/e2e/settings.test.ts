@@ -59,6 +59,7 @@ test("an overcure puts undersides where the model has them, and the result says 
   const page = await opened("?rays=512&overcure=0.02&retained=0.9");
   await page.locator("details.figures > summary").click();
   const undersides = /([\d.]+) mm off on average, ([\d.]+) mm at most \(([\d.]+) mm without compensation\)/;
+  await expect.poll(() => words(page)).toMatch(undersides);
   const [, mean, largest, before] = (undersides.exec(await words(page)) ?? []).map(Number) as [number, number, number, number];
   expect(before).toBeGreaterThan(0.1);
   expect(largest).toBeLessThan(before);
@@ -113,7 +114,8 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   const list = page.getByLabel("Printer", { exact: true });
   await choosePrinter(page, "sl1s");
   await settled(page);
-  expect(await page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
+  await page.locator("details.figures summary").click();
+  await expect.poll(() => page.locator("details.figures").evaluate((it) => it.textContent)).toMatch(/1,620 × 2,560 pixels of 0\.05/);
   expect(await page.getByLabel("Resolution").count()).toBe(0);
   await page.getByLabel("Scale to height").fill("120");
   await state(page, "error");

@@ -95,7 +95,7 @@ export function paths(engine: Engine): void {
     });
 
     const give = (name: string): Promise<void> =>
-      session.give(() => document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("input[type=file]"), join(folder, name));
+      session.give(() => document.querySelector("cusp-workbench")?.shadowRoot?.querySelector("input[type=file]") ?? document.querySelector("[part=drop] input"), join(folder, name));
 
     const plan = (): Promise<{ z_mm: number[]; crc32: number | null }> =>
       session.call(() => {

@@ -33,6 +33,9 @@ export interface BesideHost {
   mispriced(error: SlicerError): void;
 }
 
+/** Time after which nobody seems to be changing settings: the next plan would wait for a check under way, which takes about a second. */
+const QUIET_MS = 800;
+
 export class BackgroundQueries {
   mask: Mask | null = null;
   /** Price of the last result by {@link asked}. */
@@ -46,6 +49,9 @@ export class BackgroundQueries {
   #maskOf: Result | null = null;
   #asked: Asked | null = null;
   #priceOf: Result | null = null;
+  /** The last result that was shown for a while, and the one that waits for it. */
+  #quiet: Result | null = null;
+  #waiting: Result | null = null;
 
   constructor(looked: Looked, host: BesideHost, slicer: Pick<Slicer, "mask" | "tradeoff" | "price">, { curve, checks }: { curve: Curve; checks: Checks }) {
     this.#looked = looked;
@@ -72,7 +78,7 @@ export class BackgroundQueries {
           (await this.#fetchPrice(result)) ||
           (await this.#checks.fetch(result, false)) ||
           (await this.#fetchCurve(result)) ||
-          (await this.#checks.fetch(result, true));
+          (this.#isQuiet(result) && (await this.#checks.fetch(result, true)));
         if (!fetched) break;
       }
     } catch (error) {
@@ -100,6 +106,19 @@ export class BackgroundQueries {
     if (asked === null) this.price = null;
     this.#host.changed();
     void this.fetch();
+  }
+
+  /** Returns true once a result has been shown for a while; calls {@link fetch} then. */
+  #isQuiet(result: Result): boolean {
+    if (this.#quiet === result || !this.#checks.isWatching) return true;
+    if (this.#waiting !== result) {
+      this.#waiting = result;
+      setTimeout(() => {
+        this.#quiet = result;
+        void this.fetch();
+      }, QUIET_MS);
+    }
+    return false;
   }
 
   /** Fetches the price of the result; returns false if not needed. */
