@@ -1,4 +1,4 @@
-/** What to do with a print file that was just saved; fetched with the first one. */
+/** Card about a saved print file: where it goes next. Fetched with the first one. */
 import { html, nothing, type TemplateResult } from "lit";
 import { isFilament } from "../api/facts.js";
 import type { Facts } from "../element/facts.js";

@@ -34,6 +34,9 @@ import { tabs } from "./tabs.js";
 import { workbenchWords } from "./texts.js";
 import { shown } from "../api/visible.js";
 
+/** Fetched with the first file that is saved. */
+const afterCode = new FetchedPanel("saved", () => import("./after-download.js"));
+
 /** State of the workbench itself: the open panels, and the position of the chart's plot. */
 export interface Bench {
   isWide: boolean;
@@ -127,9 +130,6 @@ function overlay(facts: Facts): TemplateResult {
         </div>`}
   `;
 }
-
-/** Fetched with the first file that is saved. */
-const afterCode = new FetchedPanel("saved", () => import("./after-download.js"));
 
 function afterSaving(facts: Facts, { saved, dismiss }: Bench): TemplateResult | typeof nothing {
   if (saved === null) return nothing;

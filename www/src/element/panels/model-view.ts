@@ -145,6 +145,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
   }
 
   override updated(): void {
+    // A layout may put other content over the view, which makes room for the tools.
+    this.toggleAttribute("editing", this.#isEditing);
     if (this.isPlanning || this.#next === null) return;
     const next = this.#next;
     this.#next = null;
@@ -173,7 +175,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { shown, language, tool } = this;
     const isPainting = tool === "paint";
     const isPlacing = places(tool);
-    const isEditing = isPainting || isPlacing;
+    const isEditing = this.#isEditing;
     const walls_mm = isEditing ? null : this.walls_mm;
     // Editing and wall thickness show the model alone, without its copies.
     const isPlate = this.copies.length > 0 && !isEditing && walls_mm === null;
@@ -189,8 +191,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const { texts } = language;
     const words = texts.view;
     const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
-    // The layout may put other content over the view, which makes room while the tools of an edit are shown.
-    this.toggleAttribute("editing", isEditing);
     return html`
       <h3 class="visually-hidden">${words.title}</h3>
       ${viewBar({
@@ -303,7 +303,12 @@ export class CuspModel extends elementWith(PROPERTIES) {
   }
 
   #endEditing(): void {
-    if (this.tool === "paint" || places(this.tool)) this.tool = "turn";
+    if (this.#isEditing) this.tool = "turn";
+  }
+
+  /** Returns true while the model is painted or gets points. */
+  get #isEditing(): boolean {
+    return this.tool === "paint" || places(this.tool);
   }
 
   /** Hides the wall thickness colours when others are requested. */

@@ -76,9 +76,9 @@ export class BackgroundQueries {
         const fetched =
           (await this.#fetchMask(result)) ||
           (await this.#fetchPrice(result)) ||
-          (await this.#checks.fetch(result, false)) ||
+          (await this.#checks.fetch(result)) ||
           (await this.#fetchCurve(result)) ||
-          (this.#isQuiet(result) && (await this.#checks.fetch(result, true)));
+          (this.#checks.isWatching && this.#isQuiet(result) && (await this.#checks.fetch(result, true)));
         if (!fetched) break;
       }
     } catch (error) {
@@ -110,7 +110,7 @@ export class BackgroundQueries {
 
   /** Returns true once a result has been shown for a while; calls {@link fetch} then. */
   #isQuiet(result: Result): boolean {
-    if (this.#quiet === result || !this.#checks.isWatching) return true;
+    if (this.#quiet === result) return true;
     if (this.#waiting !== result) {
       this.#waiting = result;
       setTimeout(() => {

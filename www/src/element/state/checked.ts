@@ -37,13 +37,13 @@ export function onCopies(finding: Finding, models: readonly Checked[]): readonly
 }
 
 /** Maximum number of findings outlined at once; the largest of each kind come first. */
-const MOST_PLACES = 200;
+const MOST_OUTLINES = 200;
 
 /** The findings that need attention, on each copy. */
-export function placesOf(models: readonly Checked[]): readonly Finding[] {
+export function outlinesOf(models: readonly Checked[]): readonly Finding[] {
   return models
     .flatMap(({ copies_mm, found }) => found.findings.filter(({ severity }) => severity === "review" || severity === "reject").flatMap((finding) => copies_mm.map((at_mm) => moved(finding, at_mm))))
-    .slice(0, MOST_PLACES);
+    .slice(0, MOST_OUTLINES);
 }
 
 function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Finding {

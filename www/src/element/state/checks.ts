@@ -4,7 +4,7 @@ import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { isEqual } from "./plain.js";
-import { checkedOf, onCopies, placesOf, type Checked } from "./checked.js";
+import { checkedOf, onCopies, outlinesOf, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -38,7 +38,8 @@ export class Checks {
   #isOpen = false;
   #chosen: Finding | null = null;
   #marks = NO_MARKS;
-  #places = NO_MARKS;
+  /** Computed when a panel first shows the findings. */
+  #places: readonly Finding[] | null = null;
   #showsWalls = false;
   #error: SlicerError | null = null;
   /** Input of the last check or of its failure. */
@@ -117,7 +118,7 @@ export class Checks {
 
   /** Findings of the current check that need attention, on each copy; empty unless a panel shows the findings. */
   get places(): readonly Finding[] {
-    return this.#isOpen && this.check !== null ? this.#places : NO_MARKS;
+    return this.#isOpen && this.check !== null ? (this.#places ??= outlinesOf(this.models)) : NO_MARKS;
   }
 
   /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
@@ -131,12 +132,12 @@ export class Checks {
   /**
    * Checks a plan; returns false if not needed.
    *
-   * @param isIdle true if nothing else is to be done
+   * @param isWatched true to check a plan for which no panel and no shop asks
    */
-  async fetch(result: Result, isIdle: boolean): Promise<boolean> {
+  async fetch(result: Result, isWatched = false): Promise<boolean> {
     const limits = this.#limits;
     const of = { result, limits };
-    if (!(this.#isOpen || limits !== null || (isIdle && this.isWatching)) || this.isCurrent) return false;
+    if (!(this.#isOpen || limits !== null || isWatched) || this.isCurrent) return false;
     const { plate } = result.report;
     try {
       const check = await this.#slicer.check(limits ?? {}, { plate });
@@ -167,7 +168,7 @@ export class Checks {
     this.#of = of;
     this.last = check;
     this.models = check === null ? [] : checkedOf(check, of.result.report);
-    this.#places = placesOf(this.models);
+    this.#places = null;
     this.#error = error;
     this.#chosen = null;
   }

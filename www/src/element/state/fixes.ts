@@ -1,7 +1,7 @@
 /** Remedies for findings: a change of the settings, or another direction of the model. */
 import type { Code } from "../../api/wire.js";
 import { isFilament } from "../../api/facts.js";
-import { WALL } from "./prepared.js";
+import { STRENGTH, WALL } from "./prepared.js";
 import type { Settings } from "./settings.js";
 
 export interface Fix {
@@ -12,6 +12,7 @@ export interface Fix {
 }
 
 const ORIENT: Fix = { name: "orient", change: null };
+const SUPPORT: Fix = { name: "supports", change: { supports: STRENGTH } };
 
 /** The next remedy for findings of a kind; null if only the model itself can be changed. */
 export function fixOf(code: Code, { supports, raft, wall, drain, format }: Settings): Fix | null {
@@ -22,10 +23,10 @@ export function fixOf(code: Code, { supports, raft, wall, drain, format }: Setti
     case "island":
     case "loose-body":
     case "overhang":
-      if (supports === "none") return { name: "supports", change: { supports: "medium" } };
+      if (supports === "none") return SUPPORT;
       return supports === "heavy" ? ORIENT : { name: "stronger", change: { supports: supports === "light" ? "medium" : "heavy" } };
     case "small-contact":
-      if (supports === "none") return { name: "supports", change: { supports: "medium" } };
+      if (supports === "none") return SUPPORT;
       return raft === "off" ? { name: "raft", change: { raft: "on" } } : ORIENT;
     case "cup":
     case "trap":

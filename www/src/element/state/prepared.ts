@@ -7,6 +7,9 @@ import type { Settings } from "./settings.js";
 /** Models of more resin than this are hollowed, ml. */
 const HOLLOW_ML = 30;
 
+/** Strength of the first supports. */
+export const STRENGTH = "medium";
+
 /** Walls of hollowed models, mm. */
 export const WALL = "2";
 
@@ -19,7 +22,7 @@ export function prepared(settings: Settings, candidate: Candidate, resin_ml: num
   if (isFilament(settings.format)) return pose;
   return {
     ...pose,
-    ...(settings.supports === "none" && { supports: "medium" }),
+    ...(settings.supports === "none" && { supports: STRENGTH }),
     ...(settings.wall.trim() === "" && resin_ml > HOLLOW_ML && { wall: WALL }),
   };
 }
