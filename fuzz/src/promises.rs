@@ -28,6 +28,7 @@ pub const FACTS: FileFacts = FileFacts {
         surfaces: false,
         curved_caps: false,
         supports_as_model: false,
+        mirrored: false,
     },
     unit: None,
     skipped_objects: 0,

@@ -94,6 +94,7 @@ const MODEL: ModelFile = ModelFile {
     surfaces: false,
     curved_caps: false,
     supports_as_model: false,
+    mirrored: false,
 };
 
 /// The report of that plan, as the seed of [`plan`].

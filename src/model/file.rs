@@ -27,6 +27,9 @@ pub struct ModelFile {
     /// See [`ReadOptions::supports_as_model`].
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub supports_as_model: bool,
+    /// See [`ReadOptions::mirrored`].
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub mirrored: bool,
 }
 
 impl ModelFile {
@@ -39,6 +42,7 @@ impl ModelFile {
             surfaces: false,
             curved_caps: false,
             supports_as_model: false,
+            mirrored: false,
         }
     }
 
@@ -49,6 +53,7 @@ impl ModelFile {
             surfaces: self.surfaces,
             curved_caps: self.curved_caps,
             supports_as_model: self.supports_as_model,
+            mirrored: self.mirrored,
         }
     }
 }
@@ -76,6 +81,7 @@ impl FileFacts {
                 surfaces: options.surfaces,
                 curved_caps: options.curved_caps,
                 supports_as_model: options.supports_as_model,
+                mirrored: options.mirrored,
                 ..ModelFile::of(bytes)
             },
             unit: contents.unit,

@@ -2,6 +2,7 @@
 
 mod damage;
 mod kinds;
+mod mirrored;
 mod obj;
 pub mod package;
 mod refused;

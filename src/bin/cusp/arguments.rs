@@ -167,6 +167,9 @@ pub struct ReadChoices {
     /// Read bodies that look like supports as parts of the model, and not as its supports
     #[arg(long)]
     supports_as_model: bool,
+    /// Mirror the model in the plane x = 0 of the file
+    #[arg(long)]
+    mirrored: bool,
 }
 
 impl ReadChoices {
@@ -176,6 +179,7 @@ impl ReadChoices {
             surfaces: self.surfaces,
             curved_caps: self.curved_caps,
             supports_as_model: self.supports_as_model,
+            mirrored: self.mirrored,
         }
     }
 }

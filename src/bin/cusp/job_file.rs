@@ -75,6 +75,9 @@ pub struct JobModel {
     /// True if bodies that look like supports are parts of the model.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub supports_as_model: bool,
+    /// True if the model is mirrored in the plane x = 0 of its file.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub mirrored: bool,
     /// The contents of the file and its weights, if the job file is a project.
     #[serde(skip)]
     inside: Option<Arc<(Vec<u8>, Vec<f32>)>>,
@@ -100,6 +103,7 @@ impl JobModel {
             surfaces: reading.surfaces,
             curved_caps: reading.curved_caps,
             supports_as_model: reading.supports_as_model,
+            mirrored: reading.mirrored,
             inside: None,
         }
     }
@@ -126,6 +130,7 @@ impl JobModel {
             surfaces: self.surfaces,
             curved_caps: self.curved_caps,
             supports_as_model: self.supports_as_model,
+            mirrored: self.mirrored,
         }
     }
 

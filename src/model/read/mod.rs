@@ -94,6 +94,8 @@ pub struct ReadOptions {
     /// Reads bodies that look like supports as parts of the model. Without it they are kept as supports: printed, and left out of
     /// profiles and compensation.
     pub supports_as_model: bool,
+    /// Mirrors the model in the plane x = 0 of the file.
+    pub mirrored: bool,
 }
 
 impl Contents {
@@ -123,11 +125,15 @@ pub fn read(bytes: &[u8]) -> Result<Contents, ReadError> {
 /// # Errors
 /// [`ReadError`]; [`ReadError::NoPlate`] if there is no such plate.
 pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Contents, ReadError> {
-    let contents = match identify(head_of(bytes), bytes.len() as u64)? {
+    let mut contents = match identify(head_of(bytes), bytes.len() as u64)? {
         ModelFormat::Stl => Contents::without_unit(stl::read(bytes)?),
         ModelFormat::ThreeMf => threemf::read(bytes, options)?,
         ModelFormat::Obj => obj::read(bytes)?,
     };
+    if options.mirrored {
+        mirror(&mut contents.triangles);
+        mirror(&mut contents.negative);
+    }
     let plates = contents.plate.map_or(1, |plate| plate.plates);
     match options.plate_number {
         Some(plate_number) if !(1..=plates).contains(&plate_number) => Err(ReadError::NoPlate {
@@ -135,6 +141,16 @@ pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Contents, ReadEr
             plates,
         }),
         _ => Ok(contents),
+    }
+}
+
+/// Mirrors triangles in the plane x = 0. Their order stays, and their normals point outwards again.
+fn mirror(triangles: &mut Triangles) {
+    for triangle in triangles {
+        for corner in triangle.iter_mut() {
+            corner.x = -corner.x;
+        }
+        triangle.swap(1, 2);
     }
 }
 
