@@ -64,7 +64,7 @@ async function markerAbove(page: Page, [x, from]: readonly [number, number]): Pr
 const radius = ([x, y, z]: Triple): number => Math.hypot(x, y, z - RADIUS);
 
 test("a click adds the first point, a drag moves it along the surface, a key deletes it, and all is undone", async () => {
-  const page = await opened("", "Support points");
+  const page = await opened("", "Supports");
   const view = page.locator("cusp-view");
   const middle = await placeIn(view, 0.5, 0.55);
   await page.mouse.click(...middle);
@@ -112,7 +112,7 @@ test("a click adds the first point, a drag moves it along the surface, a key del
 });
 
 test("points are placed, chosen, locked and deleted by keyboard; those of a turned and scaled model are on its surface", async () => {
-  const page = await opened("&height=30&rotation=0.5,0.5,0.5,0.5", "Support points");
+  const page = await opened("&height=30&rotation=0.5,0.5,0.5,0.5", "Supports");
   await page.locator("cusp-view .scene").focus();
   // Turn to see it from below: no support reaches its top.
   for (let i = 0; i < 4; i++) await page.keyboard.press("Shift+ArrowUp");
@@ -142,7 +142,7 @@ test("points are placed, chosen, locked and deleted by keyboard; those of a turn
 });
 
 test("a hole is drilled into a hollow model by a click, inward, and its plug is saved as an STL; weights that points and holes keep off are shown", async () => {
-  const page = await opened("&supports=light&wall=1.5", "Drain holes");
+  const page = await opened("&supports=light&wall=1.5", "Drains");
   const automatic = await drains(page);
   expect(automatic.length).toBeGreaterThan(0);
   const view = page.locator("cusp-view");
@@ -189,7 +189,7 @@ test("a hole is drilled into a hollow model by a click, inward, and its plug is 
       return [supports?.protect, hollow?.auto_drain];
     });
   expect(await asked()).toEqual([true, { protect: true }]);
-  await page.getByRole("radio", { name: "Support points" }).check();
+  await page.getByRole("radio", { name: "Supports" }).check();
   expect(await protect.isChecked()).toBe(true);
   expect(await shown()).toEqual(["weights", "product"]);
   await page.locator("cusp-view .legend").waitFor();
@@ -208,7 +208,7 @@ test("of several models each has points of its own, placed on it alone; its copi
     page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models.map(({ supported }) => supported?.points.length ?? 0) ?? []);
   const before = await points();
   expect(Math.min(...before)).toBeGreaterThan(0);
-  const tool = page.getByRole("radio", { name: "Support points" });
+  const tool = page.getByRole("radio", { name: "Supports" });
   await tool.click();
   await page.locator("cusp-model section.points").waitFor();
   // The ball alone, in the middle.

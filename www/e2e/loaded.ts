@@ -9,8 +9,8 @@ export async function beforeView(page: Page): Promise<Map<string, number>> {
     const { pathname } = new URL(response.url());
     if (!/\.(js|css|html)$|\/$/.test(pathname)) return;
     void response.body().then(
-      // The view's own chunks, and three.js.
-      (body) => (/cusp-view/.test(pathname) || body.includes("WebGLRenderer") ? null : sizes.set(pathname, gzipSync(body).length)),
+      // The view's own chunks, three.js, and what is fetched after them.
+      (body) => (/cusp-view|view-tools|viewing|view-texts|-rest/.test(pathname) || body.includes("WebGLRenderer") ? null : sizes.set(pathname, gzipSync(body).length)),
       () => undefined,
     );
   });

@@ -22,7 +22,7 @@ test("held, the model is previewed as it turns; let go, or turned by keyboard, i
   await state(page, "done");
   await page.waitForSelector("cusp-view .scene");
   const upright = await layers(page);
-  await page.getByRole("radio", { name: "Turn the model" }).click();
+  await page.getByRole("radio", { name: "Turn" }).click();
   await page.locator("cusp-view .scene").focus();
   for (let i = 0; i < 3; i++) await page.keyboard.press("ArrowUp");
   await settled(page);
@@ -65,6 +65,7 @@ test("beside the chart, heights are where the chart has them", async () => {
   await drop(page, ball);
   await state(page, "done");
   const beside = page.getByRole("switch", { name: "Beside the profile" });
+  await page.locator("cusp-model summary").click();
   await expect.poll(() => beside.isVisible()).toBe(true);
   expect(await beside.isChecked()).toBe(false);
   /** Upper edge and plate of the model on the screen, and those of the chart's plot. */
@@ -99,7 +100,7 @@ test("a copy on the plate is moved by keyboard and by pointer; one that overlaps
   await drop(page, ball, block);
   await state(page, "done");
   const moved = page.locator("cusp-plate").getByText("Copies stand where they were moved.");
-  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  await page.getByRole("radio", { name: "Move" }).click();
   const scene = page.locator("cusp-view .scene");
   await scene.focus();
   await scene.press("ArrowDown");
@@ -113,7 +114,7 @@ test("a copy on the plate is moved by keyboard and by pointer; one that overlaps
   await state(page, "done");
   await expect.poll(() => moved.count()).toBe(0);
 
-  await page.getByRole("radio", { name: "Move on the plate" }).click();
+  await page.getByRole("radio", { name: "Move" }).click();
   const { x, y, width, height } = (await page.locator("cusp-view canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
   // Only the camera knows the ball's exact position. A press next to it turns the view.
   let isMoved = false;
@@ -162,6 +163,7 @@ test("the thickness of walls is shown by keyboard, and ends where other colours 
   // It stays when another panel is looked at.
   await openPanel(page, "Mask");
   expect(await scale.isVisible()).toBe(true);
+  await page.locator("cusp-model summary").click();
   await page.getByRole("switch", { name: "As printed" }).click();
   await scale.waitFor({ state: "detached" });
   await openPanel(page, "Check");
@@ -202,4 +204,125 @@ test("on the smallest phone an open sheet leaves the view its room, and has some
     expect(await height(".sheet .panel")).toBeGreaterThan(110);
     expect(await page.evaluate(() => document.documentElement.scrollHeight - innerHeight)).toBe(0);
   }
+});
+
+/** Setting of the page, as in its address. */
+async function setting(page: Page, name: string): Promise<string> {
+  await expect.poll(() => new URL(page.url()).searchParams.get(name), { message: name }).not.toBeNull();
+  return new URL(page.url()).searchParams.get(name) ?? "";
+}
+
+test("a model is turned, scaled and mirrored by typed numbers, and undo takes it back", async () => {
+  const page = await start("?backend=cpu&rays=512", { viewport: { width: 1280, height: 800 } });
+  await drop(page, block);
+  await state(page, "done");
+  await page.getByRole("radio", { name: "Scale" }).click();
+  const type = async (label: string, text: string): Promise<void> => {
+    const field = page.locator("cusp-model .fields").getByLabel(label);
+    await field.fill(text);
+    await field.press("Enter");
+    await settled(page);
+  };
+  await type("Z (mm)", "4");
+  expect(Number(await setting(page, "height"))).toBeCloseTo(4, 3);
+  await expect.poll(() => page.locator("cusp-model .fields").getByLabel("Scale (%)").inputValue()).toBe("50");
+  await type("Scale (%)", "75");
+  expect(Number(await setting(page, "height"))).toBeCloseTo(6, 3);
+  await page.getByRole("radio", { name: "Turn" }).click();
+  await type("Z (°)", "30");
+  const [x = 1, y = 1, z = 0] = (await setting(page, "rotation")).split(",").map(Number);
+  for (const [part, expected] of [[x, 0], [y, 0], [z, Math.sin(Math.PI / 12)]] as const) expect(part).toBeCloseTo(expected, 4);
+  await page.getByRole("button", { name: "Mirror" }).click();
+  await expect.poll(async () => Number((await setting(page, "rotation")).split(",")[2])).toBeCloseTo(-z, 4);
+  await settled(page);
+  const isMirrored = (): Promise<boolean | undefined> => page.evaluate(() => document.querySelector("cusp-workbench")?.model?.reading.mirrored);
+  expect(await isMirrored()).toBe(true);
+  expect(Number(await setting(page, "height"))).toBeCloseTo(6, 3);
+  await page.getByRole("button", { name: "Undo" }).click();
+  await expect.poll(async () => (await isMirrored()) ?? false).toBe(false);
+});
+
+test("copies are selected in the view, duplicated, moved together and removed, by pointer, keys and menu", async () => {
+  const page = await start("?printer=mars-4-ultra&rays=512", { viewport: { width: 1280, height: 800 } });
+  await drop(page, block);
+  await state(page, "done");
+  const scene = page.locator("cusp-view .scene");
+  const view = page.locator("cusp-view");
+  const chosen = (): Promise<readonly number[]> => view.evaluate((view: CuspView) => view.chosen);
+  const places = (): Promise<readonly (readonly number[])[]> => view.evaluate((view: CuspView) => view.copies.map(({ x_mm, y_mm }) => [x_mm, y_mm]));
+  const copies = async (): Promise<number> => (await places()).length;
+  await scene.focus();
+  await scene.press("Control+d");
+  await expect.poll(copies).toBe(2);
+  await settled(page);
+  // Only the camera knows where they stand: presses of the secondary button select the copy below them.
+  const menu = page.getByRole("menu");
+  const box = (await page.locator("cusp-view canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+  const found = new Map<number, { x: number; y: number }>();
+  for (const across of [0.3, 0.35, 0.4, 0.45, 0.5, 0.55]) {
+    const at = { x: box.x + across * box.width, y: box.y + 0.55 * box.height };
+    await page.mouse.click(at.x, at.y, { button: "right" });
+    await menu.waitFor();
+    const [place = -1] = await chosen();
+    if (!found.has(place)) found.set(place, at);
+    await page.keyboard.press("Escape");
+    await menu.waitFor({ state: "hidden" });
+  }
+  expect([...found.keys()].toSorted((a, b) => a - b)).toEqual([0, 1]);
+  const [first = { x: 0, y: 0 }, second = { x: 0, y: 0 }] = [found.get(0), found.get(1)];
+  await page.mouse.click(first.x, first.y);
+  expect(await chosen()).toEqual([0]);
+  await page.keyboard.down("Shift");
+  await page.mouse.click(second.x, second.y);
+  await page.keyboard.up("Shift");
+  await expect.poll(chosen).toEqual([0, 1]);
+  const xs = async (): Promise<number[]> => (await places()).map(([x = 0]) => x);
+  const before = await xs();
+  await page.getByRole("radio", { name: "Move" }).click();
+  await scene.focus();
+  await scene.press("ArrowRight");
+  await expect.poll(xs).toEqual(before.map((x) => Math.round((x + 1) / 0.05) * 0.05));
+  await settled(page);
+  const field = page.locator("cusp-model .fields").getByLabel("Y (mm)");
+  await field.fill("12,5");
+  await field.press("Enter");
+  await expect.poll(async () => (await places()).some(([, y]) => y === 12.5)).toBe(true);
+  await settled(page);
+  await scene.focus();
+  await scene.press("Shift+F10");
+  await menu.getByRole("menuitem", { name: "Remove" }).waitFor();
+  await page.keyboard.press("Escape");
+  // Both are selected, and the last ones stay.
+  await scene.press("Delete");
+  expect(await copies()).toBe(2);
+  await page.getByRole("radio", { name: "Look" }).click();
+  await page.mouse.click(box.x + 4, box.y + box.height - 4, { button: "right" });
+  await menu.getByRole("menuitem", { name: "Duplicate" }).click();
+  await expect.poll(copies).toBe(4);
+});
+
+test("the slider cuts the model at the layer, if it is told to", async () => {
+  const page = await start("?backend=cpu&rays=512&wall=1.5", { viewport: { width: 1280, height: 800 } });
+  await drop(page, ball);
+  await state(page, "done");
+  const box = (await page.locator("cusp-view canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+  /** Mean brightness of the picture where the upper half of the ball is. */
+  const upper = async (): Promise<number> => {
+    const clip = { x: box.x + 0.33 * box.width, y: box.y + 0.32 * box.height, width: 0.06 * box.width, height: 0.06 * box.height };
+    const png = (await page.screenshot({ clip })).toString("base64");
+    return page.evaluate(async (png) => {
+      const picture = await createImageBitmap(new Blob([Uint8Array.from(atob(png), (letter) => letter.charCodeAt(0))]));
+      const context = new OffscreenCanvas(picture.width, picture.height).getContext("2d");
+      context?.drawImage(picture, 0, 0);
+      const { data } = context?.getImageData(0, 0, picture.width, picture.height) ?? { data: [] };
+      return [...data].reduce((sum, part) => sum + part, 0) / data.length;
+    }, png);
+  };
+  await page.waitForTimeout(500);
+  const whole = await upper();
+  await page.locator("cusp-model summary").click();
+  await page.getByRole("switch", { name: "Cut at the layer" }).click();
+  await page.keyboard.press("Escape");
+  expect(await page.locator("cusp-view").evaluate((view: CuspView) => view.cuts)).toBe(true);
+  await expect.poll(async () => (await upper()) - whole).toBeGreaterThan(20);
 });

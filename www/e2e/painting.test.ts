@@ -38,7 +38,7 @@ const weights = (page: Page): Promise<number[] | null> =>
     return found === null ? null : [...found];
   });
 
-const brush = (page: Page): Promise<void> => page.getByRole("radio", { name: "Paint important areas" }).click();
+const brush = (page: Page): Promise<void> => page.getByRole("radio", { name: "Paint" }).click();
 
 /** The highest point of the model on the screen, found by hovering. */
 async function top(page: Page): Promise<{ x: number; y: number; z_mm: number }> {

@@ -99,7 +99,7 @@ test("a first-time user goes from step to step, each at its top, and the file ha
   await next(page, "Support");
   await at(page, "Support");
   expect(await said(page, "Support")).toBe("None");
-  await page.getByLabel("Supports").selectOption("Medium");
+  await page.getByRole("combobox", { name: "Supports" }).selectOption("Medium");
   await settled(page);
   const { supported, hollowed } = await own(page);
   expect(await said(page, "Support")).toBe(`Medium, ${supported?.points.length} points`);
@@ -215,7 +215,7 @@ test("by keyboard alone, with Tab and keys, a first visit gets through the steps
     await press(page.getByRole("button", { name: `Next: ${name}` }), "Enter", name === "Hollow" ? "Shift+Tab" : "Tab");
     await at(page, name);
   }
-  await press(page.getByLabel("Supports"), "ArrowDown");
+  await press(page.getByRole("combobox", { name: "Supports" }), "ArrowDown");
   await settled(page);
   expect((await own(page)).supported?.points.length).toBeGreaterThan(0);
   for (const name of ["Check", "Slice"]) {

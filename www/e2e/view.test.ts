@@ -593,11 +593,11 @@ test("where there is no WebGL a sentence says so, and the tools are disabled wit
   await show(page).catch(() => undefined);
   const controls = page.locator("cusp-model .bar input");
   await expect.poll(() => controls.evaluateAll((all) => all.every((it) => (it as HTMLInputElement).disabled))).toBe(true);
-  expect(await controls.count()).toBe(6);
+  expect(await controls.count()).toBe(8);
   const reason = page.getByText("These tools need the 3-D view, which is not available.");
   expect(await reason.isVisible()).toBe(true);
   const id = await reason.getAttribute("id");
-  expect(await controls.evaluateAll((all) => all.map((it) => it.getAttribute("aria-describedby")))).toEqual(Array(6).fill(id));
+  expect(await controls.evaluateAll((all) => all.map((it) => it.getAttribute("aria-describedby")))).toEqual(Array(8).fill(id));
   await page.getByText("WebGL 2 is switched off or missing").waitFor();
   expect(await broken(page)).toEqual([]);
 });
@@ -606,15 +606,21 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
   const page = await start(WIDE);
   await show(page, SMALL);
   const tool = (): Promise<string | undefined> => page.evaluate(() => window.harness.inner?.tool);
-  await page.getByRole("radio", { name: "Look around" }).focus();
+  await page.getByRole("radio", { name: "Look" }).focus();
   await page.keyboard.press("ArrowRight");
   expect(await tool()).toBe("rotate");
   await page.keyboard.press("ArrowRight");
-  expect(await tool()).toBe("flat");
+  expect(await tool()).toBe("size");
   expect(await page.getByRole("radio", { checked: true }).count()).toBe(1);
-  // One tab stop for all modes, and one for each switch.
+  // One tab stop for all modes, one for the list of switches, and in it one for each.
+  const list = page.locator("cusp-model summary");
+  for (let i = 0; !(await list.evaluate((it) => it === (it.getRootNode() as ShadowRoot).activeElement)); i++) {
+    expect(i).toBeLessThan(8);
+    await page.keyboard.press("Tab");
+  }
+  await page.keyboard.press("Enter");
   await page.keyboard.press("Tab");
-  for (const name of ["Beside the profile", "As printed", "Distance from the model"]) {
+  for (const name of ["Beside the profile", "Cut at the layer", "As printed", "Distance from the model"]) {
     const it = page.getByRole("switch", { name });
     expect(await it.evaluate((it) => it === (it.getRootNode() as ShadowRoot).activeElement), name).toBe(true);
     const before = await it.isChecked();
@@ -629,6 +635,7 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
     page.getByRole("switch", { name }),
   ) as [ReturnType<Page["getByRole"]>, ReturnType<Page["getByRole"]>, ReturnType<Page["getByRole"]>];
   const states = async (): Promise<boolean[]> => Promise.all([printed, measured, aligned].map((it) => it.isChecked()));
+  await list.click();
   // Leaves the distances, which the keys have switched on.
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
@@ -641,20 +648,22 @@ test("the bar has modes, of which one is on, and switches, by keyboard too; the 
   await printed.click();
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
-  await page.getByRole("radio", { name: "Paint important areas" }).click();
+  await page.getByRole("radio", { name: "Paint" }).click();
+  await list.click();
   expect(await states()).toEqual([false, false, false]);
   await aligned.click();
   expect(await states()).toEqual([false, false, true]);
-  expect(await page.getByRole("radio", { name: "Look around" }).isChecked()).toBe(true);
+  expect(await page.getByRole("radio", { name: "Look" }).isChecked()).toBe(true);
 });
 
-test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all languages", async () => {
+test("the bar is one line from 480 pixels on, and nothing is cut at 260, in all languages", async () => {
   const page = await start({ viewport: { width: 2000, height: 500 } });
   for (const locale of LANGUAGES) {
     await show(page, { locale, hasPlot: true });
     await page.evaluate(() => (window.harness.panel.rotation = [1, 0, 0, 0]));
-    // The widths at which labels appear are the tightest.
-    for (const width of [260, 560, 992, 1728]) {
+    await page.locator("cusp-model summary").click();
+    // The width at which labels appear is the tightest, with the labels of all but the tools for drains and plates.
+    for (const width of [260, 400, 560]) {
       const found = await page.evaluate(async (width) => {
         const { panel, drawn } = window.harness;
         const frame = document.querySelector<HTMLElement>(".frame");
@@ -663,20 +672,20 @@ test("the bar is one line from 560 pixels on, and nothing is cut at 260, in all 
         // The neighbouring chart takes 8 rem.
         frame.style.width = `${width + 128}px`;
         await drawn();
-        const targets = [...bar.querySelectorAll<HTMLElement>("label, button")].map((it) => it.getBoundingClientRect());
+        const targets = [...bar.querySelectorAll<HTMLElement>("label, button, summary")].map((it) => it.getBoundingClientRect());
         const { left, right } = bar.getBoundingClientRect();
         return {
           width: right - left,
-          switches: bar.querySelectorAll(".switch:not(.unseen)").length,
+          switches: bar.querySelectorAll(".switch").length,
           height: bar.offsetHeight,
           isInside: targets.every((it) => it.left >= left && it.right <= right),
           least: Math.min(...targets.flatMap((it) => [it.width, it.height])),
         };
       }, width);
       const at = `${locale} at ${width}`;
-      expect(found, at).toMatchObject({ width, switches: 3, isInside: true });
+      expect(found, at).toMatchObject({ width, switches: 4, isInside: true });
       expect(found.least, at).toBeGreaterThanOrEqual(36);
-      expect(found.height, at).toBeLessThanOrEqual(width === 260 ? 80 : 40);
+      expect(found.height, at).toBeLessThanOrEqual(width === 260 ? 80 : 46);
     }
   }
 });
@@ -702,7 +711,7 @@ test("with the brush the model stays visible in a box 650 high, and all tools ca
     const plain = await heights(page);
     expect(plain.panel).toBe(650);
     expect(plain.view).toBeGreaterThan(540);
-    await page.getByRole("radio", { name: "Paint important areas" }).click();
+    await page.getByRole("radio", { name: "Paint" }).click();
     await page.getByText("Load weights").waitFor();
     await drawn(page);
     const { view, width: across, tools, lowest } = await heights(page);
@@ -713,7 +722,7 @@ test("with the brush the model stays visible in a box 650 high, and all tools ca
     // All tools are reachable.
     await page.getByText("Load weights").scrollIntoViewIfNeeded();
     expect(await page.getByText("Load weights").isVisible()).toBe(true);
-    await page.getByRole("radio", { name: "Look around" }).click();
+    await page.getByRole("radio", { name: "Look" }).click();
   }
 });
 
@@ -769,7 +778,13 @@ const ready = async (page: Page): Promise<void> => {
   await drawn(page);
   await drawn(page);
 };
-const printed = (page: Page): Promise<void> => page.getByRole("switch", { name: "As printed" }).click();
+const printed = async (page: Page): Promise<void> => {
+  const list = page.locator("cusp-model summary");
+  await list.click();
+  await page.getByRole("switch", { name: "As printed" }).click();
+  // It lies over the canvas.
+  await list.click();
+};
 
 test("for the printed look the view comes so near that steps can be told apart, and goes back to the chart's side", async () => {
   const page = await start({ ...WIDE, deviceScaleFactor: 1 });

@@ -252,7 +252,7 @@ export function paths(engine: Engine): void {
         await visitor.open(inject("address") + FEW);
         await visitor.drop(ball);
         await visitor.state("done");
-        await visitor.click("input[type=radio]", "^Paint important areas$");
+        await visitor.click("input[type=radio]", "^Paint$");
       };
       await brush();
       const before = await plan();

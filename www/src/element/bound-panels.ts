@@ -9,7 +9,7 @@ import type { Rotation } from "../view/scene/pose.js";
 import { UPRIGHT } from "../view/scene/turn.js";
 import type { Painted } from "./events.js";
 import type { Facts } from "./facts.js";
-import type { Scaled } from "./panels/model-view.js";
+import type { CopiesEvent, Scaled } from "./panels/model-view.js";
 import type { Searched } from "./panels/orientation-panel.js";
 import type { PlotPlace } from "./panels/profile-chart.js";
 import type { Fields } from "./panels/settings-form.js";
@@ -76,7 +76,9 @@ export function modelPanel({ session, language, saveWeights }: Facts): TemplateR
     .copies=${session.plate.copies}
     .colliding=${session.plate.colliding}
     .shapes=${session.plate}
-    @cusp-move=${({ detail: { place, final, ...to } }: CustomEvent<MoveDetail>) => session.plate.move(place, to, final)}
+    @cusp-move=${({ detail: { copies, final } }: CustomEvent<MoveDetail>) => session.plate.move(copies, final)}
+    @cusp-copies=${({ detail }: CustomEvent<CopiesEvent>) => (detail.do === "remove" ? session.plate.removeCopies(detail.places) : session.plate.duplicate(detail.places))}
+    @cusp-mirror=${() => void session.mirror()}
     @cusp-entry=${(event: CustomEvent<Entry>) => session.plate.select(session.plate.entries.indexOf(event.detail))}
     .settings=${settings}
     .edited=${session}

@@ -13,7 +13,7 @@ afterEach(() => vi.unstubAllGlobals());
 /** Every key of an ordinary keyboard, alone and with modifiers, named as in the table. */
 const PRINTABLE = Array.from({ length: 94 }, (_, i) => String.fromCharCode(33 + i)).filter((key) => !/[A-Z]/.test(key));
 const NAMED = ["Arrow", "Page"].flatMap((kind) => ["Left", "Right", "Up", "Down"].map((way) => kind + way));
-const OTHERS = ["Enter", "Escape", "Tab", " ", "Home", "End", "Insert", "Delete", "Backspace", "F1", "F2"];
+const OTHERS = ["Enter", "Escape", "Tab", " ", "Home", "End", "Insert", "Delete", "Backspace", "F1", "F2", "F10"];
 const HELD = ["", "Mod+", "Shift+", "Mod+Shift+"];
 
 const presses = [...PRINTABLE, ...NAMED, ...OTHERS].flatMap((key) =>
@@ -33,6 +33,8 @@ const same = (name: string, tool: Tool | null): string => {
   const key = name.replace(/=$/, "+").replace("Mod+Shift+y", "Mod+y").replace(/^.*Escape$/, "Escape");
   const counts =
     (tool === "rotate" && /Arrow|Page/.test(key)) ||
+    (tool === "size" && /Arrow/.test(key)) ||
+    key.endsWith("F10") ||
     (tool === "move" && /Arrow|^(Shift\+)?r$/.test(key)) ||
     (tool !== null && places(tool) && key.includes("Arrow"));
   return counts ? key : key.replace(/^Shift\+/, "");
@@ -42,6 +44,7 @@ test.each([
   ["turn", "turn"],
   ["move", "move"],
   ["rotate", "rotate"],
+  ["size", "size"],
   ["flat", "flat"],
   ["paint", "paint"],
   ["supports", "points"],

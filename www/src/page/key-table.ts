@@ -5,6 +5,7 @@ import type { Tool } from "../view/scene/keys.js";
 export type Does =
   | "keys" | "open" | "paste" | "undo" | "redo" | "cancel"
   | "turnView" | "zoom" | "whole" | "pickLayer"
+  | "menu" | "duplicate" | "removeCopies" | "sizeModel" | "sizeFar"
   | "moveCopy" | "moveFar" | "turnCopy" | "turnCopyFar"
   | "turnModel" | "turnFinely" | "lay" | "paint" | "undoStroke" | "redoStroke"
   | "nextPoint" | "addPoint" | "removePoint" | "lockPoint"
@@ -42,7 +43,7 @@ export const KEY_TABLE: readonly (readonly [Place, readonly Row[]])[] = [
       ["cancel", ["Escape"]],
     ],
   ],
-  ["turn", [TURN_VIEW, ZOOM, ["whole", ["0"]], ["pickLayer", ["Enter"]]]],
+  ["turn", [TURN_VIEW, ZOOM, ["whole", ["0"]], ["pickLayer", ["Enter"]], ["menu", ["Shift+F10"]], ["duplicate", ["Mod+d"]], ["removeCopies", ["Delete"]]]],
   [
     "move",
     [
@@ -57,6 +58,13 @@ export const KEY_TABLE: readonly (readonly [Place, readonly Row[]])[] = [
     [
       ["turnModel", [...ARROWS, ...PAGES]],
       ["turnFinely", [...ARROWS, ...PAGES], "Shift"],
+    ],
+  ],
+  [
+    "size",
+    [
+      ["sizeModel", ARROWS],
+      ["sizeFar", ARROWS, "Shift"],
     ],
   ],
   ["flat", [["lay", ["Enter"]]]],

@@ -5,6 +5,7 @@ import { define } from "../element/define.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
 import { languageOf, type Language } from "../texts/index.js";
+import { viewingTexts } from "../texts/viewing.js";
 import { elementWith, given } from "../view/properties.js";
 import { caps, KEY_TABLE, type Place, type Row } from "./key-table.js";
 import { hasQuestionMark, setQuestionMark } from "./question-mark.js";
@@ -119,8 +120,7 @@ export class CuspKeys extends elementWith(PROPERTIES) {
   override render(): TemplateResult {
     const { language, hasTour } = this;
     const { keys: words } = visitWords(language);
-    const { tools } = language.texts.view;
-    const titles: Readonly<Record<Place, string>> = { ...words, ...tools };
+    const titles: Readonly<Record<Place, string>> = { ...words, ...viewingTexts(language).hints };
     const isOn = hasQuestionMark();
     return html`<dialog aria-labelledby="title" @keydown=${kept} @click=${this.#clicked}>
       <div class="head">

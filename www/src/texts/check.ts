@@ -12,6 +12,7 @@ import "./orientation.js";
 import "./painting.js";
 import "./placing.js";
 import "./problems.js";
+import "./viewing.js";
 import "./warnings.js";
 
 export { LANGUAGES } from "./index.js";

@@ -1,6 +1,7 @@
 import { expect, test } from "vitest";
 import { languageOf, LANGUAGES } from "./index.js";
 import { paintingTexts } from "./painting.js";
+import { viewingTexts } from "./viewing.js";
 import { placingTexts } from "./placing.js";
 
 test.each(LANGUAGES)("every sentence ends, and the selected one is told by its number and height: %s", (code) => {
@@ -23,8 +24,8 @@ test("no two languages say the same", () => {
 
 test.each(LANGUAGES)("the panels are named as their tools are: %s", (code) => {
   const language = languageOf(code);
-  const { tools } = language.texts.view;
-  expect(placingTexts(language).points.title).toBe(tools.supports);
-  expect(placingTexts(language).drains.title).toBe(tools.drains);
-  expect(paintingTexts(language).title).toBe(tools.paint);
+  const { hints } = viewingTexts(language);
+  expect(placingTexts(language).points.title).toBe(hints.supports);
+  expect(placingTexts(language).drains.title).toBe(hints.drains);
+  expect(paintingTexts(language).title).toBe(hints.paint);
 });

@@ -11,12 +11,12 @@ import { Beside } from "./scene/beside.js";
 import type { Alignment, Frame } from "./scene/cameras.js";
 import { Derived } from "./steps/derived.js";
 import { isMeasured } from "./steps/distances.js";
-import type { HeightDetail, PaintDetail, PointDetail, RotateDetail, ViewErrorDetail, ViewEvents } from "./events.js";
+import type { CopiesDetail, HeightDetail, MenuDetail, PaintDetail, PointDetail, RotateDetail, SizeDetail, ViewErrorDetail, ViewEvents } from "./events.js";
 import { pressed } from "./scene/keys.js";
 import { places } from "./scene/places.js";
 import { legendStyles } from "./legend/legend.js";
 import { wallLegendStyles } from "./legend/wall-legend.js";
-import { Moving, type MoveDetail } from "./scene/moving.js";
+import { Moving, type MoveDetail, type SelectDetail } from "./scene/moving.js";
 import { Painting } from "./paint/painting.js";
 import { Placing } from "./points/placing.js";
 import { sharePage } from "./scene/page-gestures.js";
@@ -145,6 +145,8 @@ export class CuspView extends elementWith(PROPERTIES) {
         held: (on) => (this.#isHeld = on),
         turned: (rotation) => this.#rotate(rotation, false),
         done: (rotation) => this.#rotate(rotation, true),
+        shifted: (x_mm, y_mm, isFinal) => this.#moving?.shift(x_mm, y_mm, isFinal),
+        sized: (factor, final) => this.#size(factor, final),
         drawn: (frame) => this.#drawn(frame),
         alignment: () => this.#alignment(),
       },
@@ -168,9 +170,9 @@ export class CuspView extends elementWith(PROPERTIES) {
     const placing = new Placing(scene, (detail) => this.#tell<PointDetail>("cusp-point", detail));
     this.#placing = placing;
     placing.watch(holder, (event) => placeIn(canvas, event), life.signal);
-    watchPointer(canvas, { clicked: this.#clicked, hovered }, life.signal);
+    watchPointer(canvas, { clicked: this.#clicked, menu: this.#menu, hovered }, life.signal);
     const moving = new Moving(scene, {
-      selected: (place) => this.#tell<number>("cusp-select", place),
+      selected: (detail) => this.#tell<SelectDetail>("cusp-select", detail),
       moved: (detail) => this.#tell<MoveDetail>("cusp-move", detail),
     });
     this.#moving = moving;
@@ -226,7 +228,9 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (this.#moving !== null) {
       this.#moving.isOn = this.tool === "move";
       this.#moving.copies = this.copies;
+      this.#moving.chosen = this.chosen;
     }
+    if (has("chosen")) scene.setChosen(this.chosen);
     if (has("points") || has("point")) scene.markers.set(this.points, this.point);
     if (this.#placing !== null) {
       this.#placing.isOn = places(this.tool);
@@ -239,7 +243,11 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (has("look") || has("positions")) this.#measuring.want(this.look === "walls" ? this.#derived : null);
     if (has("walls")) model.setWalls(this.walls);
     model.wallColours.setScale(wallScale(this.wall_mm), this.scale);
-    if (has("layer") || has("z_mm")) model.setBand(this.#band());
+    if (has("layer") || has("z_mm") || has("cuts")) {
+      const band = this.#band();
+      model.setBand(band);
+      scene.setCut(this.cuts && band !== null ? band[1] : null);
+    }
     if (has("plot") && this.#beside !== null) this.#beside.plot = this.plot;
     if (has("tool")) scene.setTool(this.tool);
     if ((has("tool") || has("positions")) && this.tool !== "turn") void this.#prepare();
@@ -350,9 +358,19 @@ export class CuspView extends elementWith(PROPERTIES) {
     this.#unsaid = { rotation, final };
   }
 
-  readonly #clicked = (at: Point): void => {
-    if (places(this.tool)) this.#placing?.clicked(at);
-    else void this.#pointing?.clicked(at);
+  #size(factor: number, final: boolean): void {
+    this.#scene?.setPose(this.rotation, this.scale * factor, false);
+    this.#tell<SizeDetail>("cusp-size", { factor, final });
+  }
+
+  readonly #clicked = (at: Point, isMore = false): void => {
+    if (places(this.tool)) return this.#placing?.clicked(at);
+    if (this.tool !== "flat" && this.#scene?.isHot === false && this.#moving?.choose(at, isMore) === true) return;
+    void this.#pointing?.clicked(at);
+  };
+
+  readonly #menu = (at: Point): void => {
+    this.#tell<MenuDetail>("cusp-menu", { at, place: this.#moving?.at(at) ?? null });
   };
 
   readonly #key = (event: KeyboardEvent): void => {
@@ -368,7 +386,11 @@ export class CuspView extends elementWith(PROPERTIES) {
     if (action.do === "turn-view") cameras.turn(action.right_deg, action.up_deg);
     else if (action.do === "zoom") cameras.zoom(action.factor);
     else if (action.do === "reset") cameras.reset();
-    else if (action.do === "move-copy") this.#moving?.step(this.selected, action.x_mm, action.y_mm, action.turn_deg);
+    else if (action.do === "move-copy") this.#moving?.step(action.x_mm, action.y_mm, action.turn_deg);
+    else if (action.do === "size-model") this.#size(action.factor, true);
+    else if (action.do === "menu") this.#menu(cameras.middle);
+    else if (action.do === "duplicate") this.#tell<CopiesDetail>("cusp-copies", "duplicate");
+    else if (action.do === "remove-copies") this.#tell<CopiesDetail>("cusp-copies", "remove");
     else if (action.do === "next-point") this.#placing?.step(action.by, this.#flight_ms);
     else if (action.do === "remove-point") this.#placing?.edit("remove");
     else if (action.do === "lock-point") this.#placing?.edit("lock");

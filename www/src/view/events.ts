@@ -1,5 +1,5 @@
 /** The events of the view. */
-import type { MoveDetail } from "./scene/moving.js";
+import type { MoveDetail, SelectDetail } from "./scene/moving.js";
 import type { Frame } from "./scene/cameras.js";
 import type { Rotation, Triple } from "./scene/pose.js";
 
@@ -42,10 +42,27 @@ export type PointDetail =
   | { readonly do: "select"; readonly place: number | null }
   | { readonly do: "remove" | "lock"; readonly place: number };
 
+/** The model was scaled by its handles or by keyboard, relative to `scale`. */
+export interface SizeDetail {
+  readonly factor: number;
+  /** False during the drag. */
+  readonly final: boolean;
+}
+
+/** A menu was requested. */
+export interface MenuDetail {
+  /** Position in the view, CSS pixels. */
+  readonly at: readonly [x_px: number, y_px: number];
+  /** Index of the copy there; null for none. */
+  readonly place: number | null;
+}
+
 export interface ViewErrorDetail {
   readonly code: "no-webgl";
   readonly message: string;
 }
+
+export type CopiesDetail = "duplicate" | "remove";
 
 export interface ViewEvents {
   "cusp-rotate": CustomEvent<RotateDetail>;
@@ -59,10 +76,13 @@ export interface ViewEvents {
   /** Camera rotation: turns its right, up and backward axes into the plate's frame. */
   "cusp-camera": CustomEvent<Rotation>;
   "cusp-paint": CustomEvent<PaintDetail>;
-  /** A copy was moved over the plate. The view shows it once `copies` change. */
+  "cusp-size": CustomEvent<SizeDetail>;
+  /** Copies were moved over the plate. The view shows it once `copies` change. */
   "cusp-move": CustomEvent<MoveDetail>;
-  /** Index of the copy pressed. */
-  "cusp-select": CustomEvent<number>;
+  "cusp-select": CustomEvent<SelectDetail>;
+  "cusp-menu": CustomEvent<MenuDetail>;
+  /** The selected copies are to be duplicated or removed. */
+  "cusp-copies": CustomEvent<CopiesDetail>;
   /** A point was added, moved, selected, removed or locked. */
   "cusp-point": CustomEvent<PointDetail>;
   "cusp-view-error": CustomEvent<ViewErrorDetail>;

@@ -70,8 +70,9 @@ export const ENGLISH_SENTENCES: Pick<ViewTexts, "kind" | "keys" | "empty" | "leg
   kind: "3-D view",
   keys: {
     turn: "Arrow keys turn the view, plus and minus zoom, 0 shows the whole model.",
-    move: "Arrow keys move the selected copy by 1 mm, with Shift by 10 mm; R turns it by 15°, with Shift by 45°.",
+    move: "Arrow keys move the selected copies by 1 mm, with Shift by 10 mm; R turns them by 15°, with Shift by 45°.",
     rotate: "Arrow keys and Page Up and Page Down turn the model by 5°, with Shift by 1°.",
+    size: "Arrow keys scale the model by 1 %, with Shift by 10 %.",
     flat: "Enter lays the face in the middle of the view on the plate. Arrow keys turn the view.",
     paint: "Enter paints in the middle of the view, Ctrl+Z takes it back. Arrow keys turn the view.",
     supports: "Enter adds a point in the middle of the view. Arrow keys go from point to point, Delete removes one, L locks it. Arrow keys with Shift turn the view.",

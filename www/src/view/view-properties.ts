@@ -38,6 +38,8 @@ export const PROPERTIES = {
   limits: given<readonly [number, number]>([0, 0]),
   /** Index of the selected layer, from 0. */
   layer: given<number | null>(null),
+  /** True if everything above the selected layer is cut off. */
+  cuts: given(false),
   /** Places to mark; the first is turned to the viewer. */
   marks: given<readonly Mark[]>([]),
   /** Places to outline, in the same frame. */
@@ -46,8 +48,10 @@ export const PROPERTIES = {
   plate: given<BuildVolume | null>(null),
   /** Copies on the plate; the model is the one at `selected`. Empty for a single model in the middle. */
   copies: given<readonly Copy[]>([]),
-  /** Index of the selected copy. */
+  /** Index of the copy drawn as the model. */
   selected: given<number | null>(null),
+  /** Indices of all selected copies. */
+  chosen: given<readonly number[]>([]),
   look: given<Look>("thickness"),
   tool: given<Tool>("turn"),
   /**

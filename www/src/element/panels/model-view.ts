@@ -10,23 +10,23 @@ import type { Look } from "../../view/scene/model.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { heightOf } from "../../view/scene/turn.js";
 import type { Copy as Standing } from "../../view/scene/copies.js";
-import type { MoveDetail } from "../../view/scene/moving.js";
+import type { MoveDetail, SelectDetail } from "../../view/scene/moving.js";
 import { BRUSH, rebased } from "../../view/paint/brush.js";
 import type { CuspView } from "../../view/cusp-view.js";
-import type { PaintDetail, PointDetail, RotateDetail } from "../../view/events.js";
+import type { CopiesDetail, MenuDetail, PaintDetail, PointDetail, RotateDetail, SizeDetail } from "../../view/events.js";
 import type { Tool } from "../../view/scene/keys.js";
 import { places } from "../../view/scene/places.js";
+import { fetchRest } from "../../texts/index.js";
 import type { ViewTexts } from "../../view/texts.js";
 import { volumeOf } from "../parts/build-volume.js";
 import { PlateView, type Shapes } from "../parts/plate-view.js";
-import { viewTexts } from "../parts/view-texts.js";
 import type { Painted } from "../events.js";
 import { define } from "../define.js";
 import { fetched } from "../parts/fetched.js";
 import { adopt, FetchedPanel, partFailure, partStyles, tellPartFailed } from "../parts/part.js";
 import type { Colours } from "./paint-tools.js";
 import type { Edited, PointEditor } from "./point-tools.js";
-import { barStyles, viewBar } from "./view-bar.js";
+import type { Placement } from "./placement-fields.js";
 import type { PlotPlace } from "./profile-chart.js";
 import type { Copy, Entry } from "../state/plate.js";
 import type { Shown } from "../state/result.js";
@@ -45,13 +45,23 @@ const BRUSH_PART = 0.2;
 /** The view appears after the first plan, or this long after the model was read. */
 const LATEST_MS = 700;
 
-/** Fetches the view. */
+/** Fetches the view, and its tools. */
 export const fetchView = fetched(() => import("../../view/cusp-view.js"));
+const fetchTools = fetched(() => import("./view-tools.js"));
+
+type ViewTools = typeof import("./view-tools.js");
 
 /** Constant, since a new array would count as a change. */
 const NO_POINTS: CuspView["points"] = [];
 const NO_COPIES: readonly Standing[] = [];
 const NO_PLACES: readonly Mark[] = [];
+const NO_PLACED: readonly number[] = [];
+
+/** Copies to duplicate or remove, by their indices; none for a single model. */
+export interface CopiesEvent {
+  readonly do: CopiesDetail;
+  readonly places: readonly number[];
+}
 
 export interface Scaled {
   readonly height_mm: number;
@@ -90,8 +100,8 @@ const PROPERTIES = {
   /** True if the plot is next to the view. */
   canAlign: own(false),
   positions: own<Float32Array | null>(null),
-  /** True if the view's code has been fetched. */
-  isThere: own(false),
+  /** The tools of the view, fetched with it; null before. */
+  tools: own<ViewTools | null>(null),
   /** True if fetching it failed. */
   isMissing: own(false),
   /** True if the browser has no WebGL. */
@@ -114,13 +124,23 @@ const PROPERTIES = {
   canRedo: own(false),
   /** Copies as the view draws them. */
   standing: own<readonly Standing[]>([]),
-  /** Index of the copy pressed last. */
-  pressed: own<number | null>(null),
+  /** Indices of the copies selected in the view, the last one pressed at the end. */
+  pressed: own<readonly number[]>([]),
+  /** True if what is above the selected layer is cut off. */
+  isCut: own(false),
+  /** Factor of the current change of size. */
+  factor: own(1),
+  /** The size asked for, until the plan has it. */
+  sized: own<Scaled | null>(null),
+  /** Where the menu was requested; null while it is closed. */
+  menu: own<MenuDetail | null>(null),
 };
 
 export class CuspModel extends elementWith(PROPERTIES) {
   /** Scale factor from the file to the model. */
   #scale = 1;
+  /** The selected copy as a list, cached, since a new array would count as a change. */
+  #alone: readonly number[] | null = null;
   #texts: { of: Language; words: ViewTexts } | null = null;
   #asked: Model | null = null;
   /** Resolves when the view may start: the model's first plan is painted, or takes long. */
@@ -136,7 +156,6 @@ export class CuspModel extends elementWith(PROPERTIES) {
   static override styles = [
     shared,
     partStyles,
-    barStyles,
     modelViewStyles,
   ];
 
@@ -159,7 +178,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
       if (this.isPlanning) this.#turn = new Promise<void>((resolve) => setTimeout((this.#next = resolve), LATEST_MS));
       void this.#fetch();
     }
-    if (changed.has("positions") || changed.has("scaled")) this.#fit();
+    if (changed.has("scaled") || changed.has("model")) this.sized = null;
+    if (changed.has("positions") || changed.has("scaled") || changed.has("sized")) this.#fit();
+    if (changed.has("copies") && changed.get("copies")?.length !== this.copies.length) this.pressed = [];
     if (changed.has("copies") || changed.has("colliding") || changed.has("positions")) {
       this.#plate.show(this.copies, this.colliding, this.shapes);
     }
@@ -188,30 +209,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const points = this.#placed?.of(tool);
     // While placing points, show the weights that supports and holes avoid: those that count in the plan.
     const heat = isPlacing ? "product" : this.colours === "layers" ? "paint" : this.colours;
-    const { texts } = language;
-    const words = texts.view;
-    const isTurned = this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0));
+    const { tools } = this;
     return html`
-      <h3 class="visually-hidden">${words.title}</h3>
-      ${viewBar({
-        tool,
-        isPrinted,
-        isMeasured,
-        isAligned: isAligned && this.canAlign,
-        isBeside: this.plot === null ? null : this.canAlign && !isPlate,
-        isTurned,
-        offered: this.#offered,
-        isPossible: !this.isMissing && !this.isBroken,
-        language,
-        chosen: (tool) => (this.tool = tool),
-        printed: (on) => this.#look(on ? "printed" : "thickness"),
-        measured: (on) => this.#look(on ? "distance" : "printed"),
-        aligned: this.#align,
-        upright: this.#upright,
-      })}
+      <h3 class="visually-hidden">${language.texts.view.title}</h3>
+      ${tools === null ? html`<div class="bar-place"></div>` : this.#bar(tools, { isPrinted, isMeasured, isAligned, isPlate })}
       <div class="stage">
       <div class="view">
-        ${this.isThere
+        ${tools !== null
           ? html`<cusp-view
               .positions=${this.positions}
               .rotation=${this.rotation}
@@ -238,8 +242,13 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .brush=${this.brush}
               .copies=${isPlate ? this.standing : NO_COPIES}
               .selected=${isPlate ? this.#selected : null}
+              .chosen=${isPlate ? this.#chosen : NO_PLACED}
+              .cuts=${this.isCut}
               @cusp-move=${(event: CustomEvent<MoveDetail>) => this.#tell(event)}
-              @cusp-select=${this.#pressed}
+              @cusp-size=${({ detail }: CustomEvent<SizeDetail>) => this.#size(detail)}
+              @cusp-select=${({ detail }: CustomEvent<SelectDetail>) => this.#press(detail)}
+              @cusp-copies=${({ detail }: CustomEvent<CopiesDetail>) => this.#copies(detail)}
+              @cusp-menu=${this.#openMenu}
               @cusp-paint=${this.#painted}
               .showsLegend=${tool !== "drains" || showsHeat}
               .tool=${tool}
@@ -247,7 +256,7 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .plot=${this.plot?.over ?? null}
               .heights_mm=${isAligned ? (this.plot?.heights_mm ?? null) : null}
               .near=${isPrinted}
-              .texts=${this.#words()}
+              .texts=${this.#words(tools)}
               @cusp-rotate=${(event: CustomEvent<RotateDetail>) => this.#tell(event)}
               @cusp-layer=${(event: CustomEvent<number>) => this.#tell(event)}
               @cusp-camera=${(event: CustomEvent<Rotation>) => this.#tell(event)}
@@ -260,13 +269,108 @@ export class CuspModel extends elementWith(PROPERTIES) {
       </div>
       ${isEditing ? html`<div class="beside">${isPainting ? this.#paintTools() : this.#pointTools()}</div>` : nothing}
       </div>
+      ${tools === null ? nothing : this.#menu(tools)}
     `;
+  }
+
+  #bar(
+    { viewBar, placementFields }: ViewTools,
+    { isPrinted, isMeasured, isAligned, isPlate }: Readonly<Record<"isPrinted" | "isMeasured" | "isAligned" | "isPlate", boolean>>,
+  ): TemplateResult {
+    const { tool, language } = this;
+    const placement = this.#placement;
+    return viewBar({
+      tool,
+      isPrinted,
+      isMeasured,
+      isAligned: isAligned && this.canAlign,
+      isBeside: this.plot !== null && this.canAlign && !isPlate,
+      isCut: this.isCut,
+      isTurned: this.rotation.some((part, i) => part !== (i === 3 ? 1 : 0)),
+      offered: this.#offered,
+      isPossible: !this.isBroken,
+      language,
+      below: placement === null ? nothing : placementFields(tool, placement),
+      chosen: (tool) => (this.tool = tool),
+      printed: (on) => this.#look(on ? "printed" : "thickness"),
+      measured: (on) => this.#look(on ? "distance" : "printed"),
+      aligned: this.#align,
+      cut: (on) => (this.isCut = on),
+      upright: this.#upright,
+    });
+  }
+
+  /** The menu of the selected model, opened by the secondary button. */
+  #menu({ placementMenu, steppedInMenu }: ViewTools): TemplateResult {
+    const placement = this.menu === null ? null : this.#placement;
+    const toggled = ({ newState }: ToggleEvent): void => {
+      if (newState === "closed") this.menu = null;
+    };
+    return html`<div class="menu" popover role="menu" aria-label=${this.language.texts.view.title} @keydown=${steppedInMenu} @toggle=${toggled}>
+      ${placement === null ? nothing : placementMenu(this.#offered, placement, () => this.#menuElement?.hidePopover())}
+    </div>`;
+  }
+
+  get #menuElement(): HTMLElement | null {
+    return this.renderRoot.querySelector(".menu");
+  }
+
+  readonly #openMenu = async ({ detail }: CustomEvent<MenuDetail>): Promise<void> => {
+    const { at: [x, y], place } = detail;
+    if (this.positions === null || this.#isEditing) return;
+    if (place !== null && !this.#chosen.includes(place)) this.#press({ place, isMore: false });
+    this.menu = detail;
+    await this.updateComplete;
+    const menu = this.#menuElement;
+    const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();
+    if (menu === null || view === undefined) return;
+    menu.showPopover();
+    const { width, height } = menu.getBoundingClientRect();
+    menu.style.left = `${Math.min(view.left + x, innerWidth - width)}px`;
+    menu.style.top = `${Math.min(view.top + y, innerHeight - height)}px`;
+    menu.querySelector("button")?.focus();
+  };
+
+  /** The selected model's placement; null until its positions are there. */
+  get #placement(): Placement | null {
+    const { positions, rotation, language } = this;
+    if (positions === null) return null;
+    const copy = this.standing.find(({ place }) => place === this.#selected) ?? null;
+    return {
+      positions,
+      rotation,
+      language,
+      copy,
+      scale: this.#scale * this.factor,
+      chosen: (tool) => (this.tool = tool),
+      rotated: (rotation) => this.#say<RotateDetail>("cusp-rotate", { rotation, final: true }),
+      sized: (factor) => this.#size({ factor, final: true }),
+      moved: (to) => copy !== null && this.#say<MoveDetail>("cusp-move", { copies: [{ place: copy.place, ...to }], final: true }),
+      mirrored: () => this.#say("cusp-mirror", null),
+      duplicated: () => this.#copies("duplicate"),
+      removed: () => this.#copies("remove"),
+    };
+  }
+
+  /** Scales the model: at the end of the change, the height in the settings is the new one. */
+  #size({ factor, final }: SizeDetail): void {
+    this.factor = final ? 1 : factor;
+    const { positions, rotation } = this;
+    if (!final || positions === null) return;
+    const height_mm = heightOf(positions, rotation) * this.#scale * factor;
+    this.sized = { height_mm, rotation };
+    this.#say("cusp-settings", { height: String(Math.round(height_mm * 1000) / 1000) });
+  }
+
+  #copies(what: CopiesDetail): void {
+    this.#say<CopiesEvent>("cusp-copies", { do: what, places: this.#chosen });
   }
 
   /** Index of the copy that stands for the selected model; null until its positions arrive. */
   get #selected(): number | null {
     const own = this.copies.filter(({ entry }) => entry.model === this.#shownModel);
-    return (own.find(({ place }) => place === this.pressed) ?? own[0])?.place ?? null;
+    const last = this.pressed.at(-1);
+    return (own.find(({ place }) => place === last) ?? own[0])?.place ?? null;
   }
 
   /** Supports of the model; on a plate, each copy has its own. */
@@ -275,20 +379,33 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.standing.find((copy) => copy.place === place)?.supports ?? this.shown?.supports ?? null;
   }
 
-  readonly #pressed = ({ detail: place }: CustomEvent<number>): void => {
-    this.pressed = place;
-    const entry = this.copies.find((copy) => copy.place === place)?.entry;
+  /** Indices of the selected copies. */
+  get #chosen(): readonly number[] {
+    const selected = this.#selected;
+    if (selected === null) return NO_PLACED;
+    if (this.pressed.includes(selected)) return this.pressed;
+    return (this.#alone = this.#alone?.[0] === selected ? this.#alone : [selected]);
+  }
+
+  #press({ place, isMore }: SelectDetail): void {
+    const others = isMore ? this.#chosen.filter((other) => other !== place) : [];
+    const isLeaving = isMore && this.#chosen.includes(place) && others.length > 0;
+    this.pressed = isLeaving ? others : [...others, place];
+    const last = this.pressed.at(-1);
+    const entry = this.copies.find((copy) => copy.place === last)?.entry;
     if (entry !== undefined && entry.model !== this.model) this.#say<Entry>("cusp-entry", entry);
-  };
+  }
 
   async #load(): Promise<void> {
     this.isMissing = false;
     try {
       const { CuspView, CuspWallLegend } = await fetchView();
+      const [tools] = await Promise.all([fetchTools(), fetchRest()]);
       await this.#turn;
       define("cusp-view", CuspView);
       define("cusp-wall-legend", CuspWallLegend);
-      this.isThere = true;
+      for (const styles of [tools.barStyles, tools.placementStyles]) adopt(this, styles);
+      this.tools = tools;
     } catch (error) {
       this.isMissing = true;
       tellPartFailed(this, "view", error);
@@ -400,7 +517,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
   }
 
   #fit(): void {
-    const { positions, scaled } = this;
+    const { positions } = this;
+    const scaled = this.sized ?? this.scaled;
     const own_mm = positions === null || scaled === null ? 0 : heightOf(positions, scaled.rotation);
     this.#scale = own_mm > 0 ? (scaled?.height_mm ?? own_mm) / own_mm : 1;
   }
@@ -431,8 +549,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
   }
 
   /** Cached per language: a new object would count as a change of the texts. */
-  #words(): ViewTexts {
-    if (this.#texts?.of !== this.language) this.#texts = { of: this.language, words: viewTexts(this.language) };
+  #words(tools: ViewTools): ViewTexts {
+    if (this.#texts?.of !== this.language) this.#texts = { of: this.language, words: tools.viewTexts(this.language) };
     return this.#texts.words;
   }
 

@@ -1,13 +1,16 @@
 /** The texts of the 3-D view, in the element's language. */
 import type { Language } from "../../texts/index.js";
+import { viewingTexts } from "../../texts/viewing.js";
 import type { ViewTexts } from "../../view/texts.js";
 
 const MICROMETRES = 1000;
 
-export function viewTexts({ texts: { view: words }, format }: Language): ViewTexts {
+export function viewTexts(language: Language): ViewTexts {
+  const { texts, format } = language;
+  const words = viewingTexts(language);
   const micrometres = (mm: number): string => format.tick(Math.round(mm * MICROMETRES * 10) / 10);
   return {
-    name: words.title,
+    name: texts.view.title,
     kind: words.kind,
     keys: words.keys,
     state: (size_mm, layers) => format.dimensions(size_mm) + (layers > 0 ? `, ${words.layers({ count: layers })}` : ""),

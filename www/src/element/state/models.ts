@@ -9,6 +9,7 @@ import type { Download, Host, SlicerCalls } from "./host.js";
 import { Plate, poseOf, type Added, type Entry, type Own, type PlateState, type Posed } from "./plate.js";
 import { Preferences } from "./preferences.js";
 import { readPrinter } from "./printer.js";
+import { mirroredPose } from "./mirrored.js";
 import type { Failure } from "./problem.js";
 import { Runner } from "./runner.js";
 import { aboutSelected, type ModelCalls } from "./selected.js";
@@ -270,6 +271,19 @@ export abstract class Models extends Preferences {
   async reread(reading: ReadOptions): Promise<Model | null> {
     const { model } = this;
     return model === null ? null : this.#open(model.file, model.name, false, reading);
+  }
+
+  /** Mirrors the selected model from left to right as it stands, with its points and weights. Null if this failed or was cancelled. */
+  async mirror(): Promise<Model | null> {
+    const { model, settings, weights } = this;
+    if (model === null) return null;
+    const { mirrored = false } = model.reading;
+    const other = await this.#open(model.file, model.name, true, { ...model.reading, mirrored: !mirrored });
+    if (other === null) return null;
+    this.preset(mirroredPose(settings));
+    if (weights === null) this.replan();
+    else this.setWeights(weights, true);
+    return other;
   }
 
   /** @param reading options for reading the selected model again in place */

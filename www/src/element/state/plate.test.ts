@@ -155,9 +155,9 @@ const placements: Placement[] = [
 test("a moved copy stays where it is put until the plate is arranged again", async () => {
   plate.setCopies(0, 3);
   plate.placements = placements;
-  plate.move(1, { x_mm: 9 }, false);
+  plate.move([{ place: 1, x_mm: 9 }], false);
   expect(told).toEqual(["replate"]);
-  plate.move(1, { turn_deg: 45 }, true);
+  plate.move([{ place: 1, turn_deg: 45 }], true);
   expect(told).toEqual(["replate", "replate"]);
   expect(plate.copies.map(({ x_mm, turn_deg }) => [x_mm, turn_deg])).toEqual([[0, 0], [9, 45]]);
   await plate.plan({}, {});
@@ -171,7 +171,7 @@ test("what is wrong with the places is asked while a copy is moved", async () =>
   plate.setCopies(0, 3);
   plate.placements = placements;
   answers = [{ code: "plate-collision", detail: { model_numbers: [1, 1], copy_numbers: [1, 3], plate_number: 1 } }];
-  plate.move(1, { x_mm: 1 }, false);
+  plate.move([{ place: 1, x_mm: 1 }], false);
   await expect.poll(() => plate.problems).toEqual(answers);
   expect([...plate.colliding]).toEqual([0, 2]);
 });
@@ -187,7 +187,7 @@ test("copies have the supports of their model, until it has another pose", async
   await plate.plan({ tolerance: 1 }, {});
   stand();
   expect(supports()).toEqual([0, 1]);
-  plate.move(1, { x_mm: 20, turn_deg: 15 }, false);
+  plate.move([{ place: 1, x_mm: 20, turn_deg: 15 }], false);
   expect(supports()).toEqual([0, 1]);
   plate.keep({ own: { height_mm: 5, supports: {} } });
   expect(supports()).toEqual([undefined, 1]);
@@ -228,4 +228,27 @@ test("a model that comes back between others is read again with those after it, 
   expect(log.at(-1)).toBe("1: plan 1 of cup ring pin");
   expect(plate.restore(state, { pose: POSE })).toBe(false);
   expect(steps).toEqual(["add", expect.stringMatching(/^remove /)]);
+});
+
+test("the copies that are selected are duplicated and removed, and the others stay where they stand", async () => {
+  await plate.add([ring], {});
+  plate.setCopies(0, 2);
+  const stand = (): void => void (plate.placements = [[0, 0], [0, 0], [1, 2]].map(([model = 0, number = 0], place) => ({ model, plate: number, x_mm: 9 * place, y_mm: 0, turn_deg: 0 })));
+  stand();
+  plate.duplicate([1, 2]);
+  expect(plate.entries.map(({ copies }) => copies)).toEqual([3, 2]);
+  plate.setCopies(0, 2);
+  plate.setCopies(1, 1);
+  stand();
+  plate.removeCopies([0]);
+  expect(plate.entries.map(({ copies }) => copies)).toEqual([1, 1]);
+  // The plate between is gone.
+  expect(plate.placed).toEqual([{ model: 0, plate: 0, x_mm: 9, y_mm: 0, turn_deg: 0 }, { model: 1, plate: 1, x_mm: 18, y_mm: 0, turn_deg: 0 }]);
+  plate.removeCopies([0, 1]);
+  expect(plate.entries).toHaveLength(2);
+  plate.removeCopies([0]);
+  expect(plate.entries.map(({ model }) => model.name)).toEqual(["ring.stl"]);
+  expect([plate.placed, plate.isSeveral, told.at(-1)]).toEqual([[], false, "selected ring.stl"]);
+  plate.duplicate([]);
+  expect(plate.entries[0]?.copies).toBe(2);
 });

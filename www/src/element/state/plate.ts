@@ -57,6 +57,12 @@ export interface Copy {
   readonly supports: Float32Array | null;
 }
 
+/** New coordinates of a copy. */
+export interface Moved extends Partial<Pick<Placement, "x_mm" | "y_mm" | "turn_deg">> {
+  /** Index among all placements. */
+  readonly place: number;
+}
+
 /** An invalid number of copies, as typed for a model. */
 export interface MisreadCopies {
   readonly key: number;
@@ -181,6 +187,7 @@ export class Plate {
     const entry = this.#entryOf(model, isAgain ? { copies } : {});
     this.#sync.note(entry, isAlone, positions);
     if (isAgain) {
+      this.#host.changing(`read ${entry.key}`);
       this.#take(this.entries.map((it, place) => (place === this.selected ? entry : it)));
     } else {
       this.#replace([entry], 0);
@@ -298,6 +305,38 @@ export class Plate {
     this.#host.replate();
   }
 
+  /** Adds a copy of each of these copies, or of the selected model. */
+  duplicate(places: readonly number[]): void {
+    const models = places.length === 0 ? [this.selected] : places.map((place) => this.placements[place]?.model);
+    const copies = this.entries.map(({ copies }, model) => countOf(copies + models.filter((it) => it === model).length));
+    if (copies.every((count, model) => count === this.entries[model]?.copies)) return;
+    this.misread = null;
+    this.#host.changing("duplicate");
+    this.entries = this.entries.map((entry, model) => ({ ...entry, copies: copies[model] ?? 1 }));
+    this.#forget();
+    this.#host.replate();
+  }
+
+  /** Removes copies; the others stay where they stand. Without others, nothing changes. */
+  removeCopies(places: readonly number[]): void {
+    const staying = this.placements.filter((_, place) => !places.includes(place));
+    if (staying.length === 0 || staying.length === this.placements.length) return;
+    const isStaying = (model: number): boolean => staying.some((it) => it.model === model);
+    const models = this.entries.map((_, model) => model).filter(isStaying);
+    const selected = models.indexOf(this.selected);
+    this.misread = null;
+    this.#host.changing(`remove copies ${places.join()}`);
+    const counted = this.entries.map((entry, model) => ({ ...entry, copies: staying.filter((it) => it.model === model).length }));
+    this.#take(counted.filter((_, model) => isStaying(model)));
+    this.#forget();
+    const plates = [...new Set(staying.map(({ plate = 0 }) => plate))].toSorted((a, b) => a - b);
+    const placed = staying.map((it) => ({ ...it, model: models.indexOf(it.model), plate: plates.indexOf(it.plate ?? 0) }));
+    if (this.isSeveral) this.placed = this.placements = placed;
+    this.selected = Math.max(0, selected);
+    if (selected < 0) this.#tellSelected();
+    else this.#host.replate();
+  }
+
   select(place: number): void {
     if (place === this.selected || this.entries[place] === undefined) return;
     this.#host.changing(null);
@@ -349,14 +388,13 @@ export class Plate {
     this.#host.replate();
   }
 
-  /** Moves a copy on its plate. Problems are checked during the move; the plan follows on release. */
-  move(place: number, to: Partial<Pick<Placement, "x_mm" | "y_mm" | "turn_deg">>, isFinal: boolean): void {
-    const moved = this.placements[place];
-    if (moved === undefined) return;
+  /** Moves copies on their plates. Problems are checked during the move; the plan follows on release. */
+  move(copies: readonly Moved[], isFinal: boolean): void {
+    const moved = new Map(copies.map(({ place, ...to }) => [place, to]));
     // A drag is one undo step, and so are presses of an arrow key in quick succession.
-    if (!this.#isMoving) this.#host.changing(isFinal ? `move ${place}` : `drag ${++this.#drags}`);
+    if (!this.#isMoving) this.#host.changing(isFinal ? `move ${[...moved.keys()].join()}` : `drag ${++this.#drags}`);
     this.#isMoving = !isFinal;
-    this.placements = this.placed = this.placements.map((it, other) => (other === place ? { ...moved, ...to } : it));
+    this.placements = this.placed = this.placements.map((it, place) => ({ ...it, ...moved.get(place) }));
     this.#host.changed();
     void this.#check();
     if (isFinal) this.#host.replate();

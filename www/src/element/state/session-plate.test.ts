@@ -147,11 +147,11 @@ test("a drag is one step; undone, the copy is back where it stood, by hand or ar
   session.plate.setCopies(0, 2);
   await settle();
   session.plate.placements = [0, 9].map((x_mm) => ({ model: 0, plate: 0, x_mm, y_mm: 0, turn_deg: 0 }));
-  for (const x_mm of [10, 11, 12]) session.plate.move(1, { x_mm }, false);
-  session.plate.move(1, { x_mm: 13 }, true);
+  for (const x_mm of [10, 11, 12]) session.plate.move([{ place: 1, x_mm }], false);
+  session.plate.move([{ place: 1, x_mm: 13 }], true);
   await settle();
-  session.plate.move(1, { x_mm: 18 }, false);
-  session.plate.move(1, { x_mm: 20 }, true);
+  session.plate.move([{ place: 1, x_mm: 18 }], false);
+  session.plate.move([{ place: 1, x_mm: 20 }], true);
   await settle();
   const stood = (): (number | undefined)[] => session.plate.placed.map(({ x_mm }) => x_mm);
   session.undo();
@@ -212,7 +212,7 @@ test.each([false, true])("another session goes on with the work: models, copies,
   await select(1);
   session.change({ height: "5" });
   session.plate.placements = [0, 9, 20, 30].map((x_mm) => ({ model: 0, plate: 0, x_mm, y_mm: 0, turn_deg: 0 }));
-  session.plate.move(1, { x_mm: 12 }, true);
+  session.plate.move([{ place: 1, x_mm: 12 }], true);
   await settle();
   const { snapshot, settings } = session;
   if (snapshot === null) throw new Error("no snapshot");

@@ -6,6 +6,13 @@ export const modelViewStyles = css`
   :host {
     position: relative;
   }
+  /* Room for the toolbar until it is there. */
+  .bar-place {
+    position: var(--cusp-bar-position, static);
+    flex: none;
+    height: 2.75rem;
+    margin-bottom: 0.75rem;
+  }
   /* Their bases make the height where the parent has none, and shrink where it has one: the tools first. */
   .stage {
     flex: 1 1 auto;

@@ -1,6 +1,7 @@
 /** The copies on a plate except the selected one, which is drawn as the model. They share its layer colours. */
 import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, Matrix4, Mesh, Quaternion, RawShaderMaterial, Sphere, Vector3, type IUniform } from "three";
 import type { Rgb } from "../legend/palette.js";
+import { define } from "./model.js";
 import { extentOf, sizeOf, standing, type Rotation, type Triple } from "./pose.js";
 import { MODEL_FRAGMENT, MODEL_VERTEX } from "./shaders.js";
 
@@ -79,6 +80,11 @@ export class Copies {
 
   set lift_mm(mm: number) {
     this.#bodies.position.z = mm;
+  }
+
+  /** @param isCut true if the model's cut applies */
+  setCut(isCut: boolean): void {
+    for (const material of [this.#plain, this.#colliding]) define(material, isCut ? ["CUT"] : []);
   }
 
   setBad([r, g, b]: Rgb): void {

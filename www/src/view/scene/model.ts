@@ -16,6 +16,7 @@ import {
   UnsignedByteType,
   Vector2,
   Vector3,
+  type IUniform,
 } from "three";
 import { HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } from "../paint/heat.js";
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
@@ -71,7 +72,12 @@ const VOID_COLOUR = [0.36, 0.62, 0.75] as const;
 /** Opacity of the model while the void is seen through it. */
 const SEE_THROUGH = 0.32;
 
+/** Height of a cut above everything: none. */
+export const NO_CUT_MM = 1e9;
+
 export class Model {
+  /** Height above which everything is cut off, mm; a uniform of all materials. */
+  readonly cut: IUniform<number> = { value: NO_CUT_MM };
   /** Position of the selected copy: the middle, if it is the only one. */
   readonly stand = new Group();
   /** Turns about the model's centre; the gizmo is attached to it. */
@@ -127,13 +133,14 @@ export class Model {
         resin: { value: new Vector3(0.75, 0.77, 0.8) },
         band: { value: new Vector2(...NO_BAND) },
         opacity: { value: 1 },
+        cut: this.cut,
         ...this.wallColours.uniforms,
       },
     });
     this.facets = new Mesh(new BufferGeometry(), this.#material);
     const body = (colour: readonly [number, number, number]): Mesh<BufferGeometry, RawShaderMaterial> => {
       const mesh = new Mesh(new BufferGeometry(), this.#material.clone());
-      mesh.material.uniforms["resin"] = { value: new Vector3(...colour) };
+      Object.assign(mesh.material.uniforms, { resin: { value: new Vector3(...colour) }, cut: this.cut });
       mesh.visible = false;
       return mesh;
     };
@@ -142,7 +149,7 @@ export class Model {
     const depth = { glslVersion: GLSL3, vertexShader: PICK_VERTEX, fragmentShader: PICK_FRAGMENT, side: DoubleSide, colorWrite: false } as const;
     // Drawn among transparent objects, after the void and before the facets; offset slightly behind the facets, so as never to hide them.
     const behind = { transparent: true, polygonOffset: true, polygonOffsetFactor: 1, polygonOffsetUnits: 4 } as const;
-    this.#depth = new Mesh(this.facets.geometry, new RawShaderMaterial({ ...depth, ...behind }));
+    this.#depth = new Mesh(this.facets.geometry, new RawShaderMaterial({ ...depth, ...behind, uniforms: { cut: this.cut } }));
     this.#depth.renderOrder = 5;
     this.#depth.visible = false;
     this.facets.renderOrder = 6;
@@ -276,6 +283,14 @@ export class Model {
     this.#set("band", new Vector2(...(band ?? NO_BAND)));
   }
 
+  /** Cuts off everything above a height, mm; null: nothing. */
+  setCut(cut_mm: number | null): void {
+    this.cut.value = cut_mm ?? NO_CUT_MM;
+    define(this.supports.material, cut_mm === null ? [] : ["CUT"]);
+    define(this.voids.material, cut_mm === null ? [] : ["CUT", "VOID"]);
+    this.#show();
+  }
+
   setLook(look: Look): void {
     this.#look = look;
     this.#show();
@@ -336,23 +351,32 @@ export class Model {
     this.steps.visible = asSteps;
     this.facets.visible = !asSteps && this.#positions.length > 0;
     const isSeenThrough = this.#isSeenThrough && this.facets.visible;
-    this.voids.visible = this.#depth.visible = isSeenThrough && this.#hasVoids;
-    this.#material.transparent = this.voids.visible;
-    this.#set("opacity", this.voids.visible ? SEE_THROUGH : 1);
-    this.#set("byThickness", this.#look === "thickness" && this.#hasPlan && !this.voids.visible);
-    if (this.#look === "weights") this.#define("BY_HEAT");
-    else if (this.#look === "distance" && this.#hasDistances) this.#define("BY_DISTANCE");
-    else if (this.#look === "walls" && this.#hasWalls) this.#define("BY_WALLS");
-    else this.#define(null);
+    this.#depth.visible = isSeenThrough && this.#hasVoids;
+    this.voids.visible = this.#hasVoids && (isSeenThrough || this.#isCut);
+    this.#material.transparent = this.#depth.visible;
+    this.#set("opacity", this.#depth.visible ? SEE_THROUGH : 1);
+    this.#set("byThickness", this.#look === "thickness" && this.#hasPlan && !this.#depth.visible);
+    const look =
+      this.#look === "weights"
+        ? ["BY_HEAT"]
+        : this.#look === "distance" && this.#hasDistances
+          ? ["BY_DISTANCE"]
+          : this.#look === "walls" && this.#hasWalls
+            ? ["BY_WALLS"]
+            : [];
+    define(this.#material, this.#isCut ? [...look, "CUT"] : look);
   }
 
-  /** Switches the shader away from layers and resin. three.js caches the program of each variant. */
-  #define(name: "BY_HEAT" | "BY_DISTANCE" | "BY_WALLS" | null): void {
-    const defines: Record<string, boolean> = name === null ? {} : { [name]: true };
-    if (String(Object.keys(defines)) === String(Object.keys(this.#material.defines))) return;
-    this.#material.defines = defines;
-    this.#material.needsUpdate = true;
+  get #isCut(): boolean {
+    return this.cut.value < NO_CUT_MM;
   }
+}
+
+/** Switches to a variant of the shader. three.js caches the program of each. */
+export function define(material: RawShaderMaterial, names: readonly string[]): void {
+  if (String(names) === String(Object.keys(material.defines))) return;
+  material.defines = Object.fromEntries(names.map((name) => [name, true]));
+  material.needsUpdate = true;
 }
 
 /** Replaces the facets of a body; returns true if it has any. */

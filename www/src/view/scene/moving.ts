@@ -1,24 +1,27 @@
-/** Moves copies over the plate, by pointer and by keyboard. */
+/** Selects copies, and moves the selected ones over the plate, by pointer, handles and keyboard. */
 import { Box3, Matrix4, Plane, Vector3, type Ray } from "three";
 import { matrixOf, type Copy } from "./copies.js";
 import { watchDrags, type Drags } from "./drags.js";
 import type { Point } from "./pointer.js";
 import type { Scene } from "./scene.js";
 
-/** Movement of a copy. */
+/** Movement of copies, each with its new placement. */
 export interface MoveDetail {
-  /** Index of the copy. */
-  readonly place: number;
-  readonly x_mm: number;
-  readonly y_mm: number;
-  readonly turn_deg: number;
+  readonly copies: readonly Pick<Copy, "place" | "x_mm" | "y_mm" | "turn_deg">[];
   /** False during the movement. */
   readonly final: boolean;
 }
 
+/** Selection of a copy. */
+export interface SelectDetail {
+  readonly place: number;
+  /** True if the copy joins the selected ones, or leaves them. */
+  readonly isMore: boolean;
+}
+
 export interface MovingReports {
   /** Called when a copy was pressed. */
-  selected(place: number): void;
+  selected(detail: SelectDetail): void;
   moved(detail: MoveDetail): void;
 }
 
@@ -31,18 +34,24 @@ const rounded = (mm: number): number => Math.round(mm / STEP_MM) * STEP_MM;
 
 interface Drag {
   readonly place: number;
-  /** Offset from the grasped point to the copy's centre, at the height of that point. */
-  readonly grasp: Vector3;
+  /** Grasped point, and the plane at its height. */
+  readonly from: Vector3;
   readonly plane: Plane;
+  /** The copies that move, as they stood. */
+  readonly copies: readonly Copy[];
   hasMoved: boolean;
 }
 
 export class Moving {
   isOn = false;
   copies: readonly Copy[] = [];
+  /** Indices of the selected copies. */
+  chosen: readonly number[] = [];
   readonly #scene: Scene;
   readonly #reports: MovingReports;
   #drag: Drag | null = null;
+  /** The copies as they stood before the handles moved them. */
+  #held: readonly Copy[] | null = null;
 
   constructor(scene: Scene, reports: MovingReports) {
     this.#scene = scene;
@@ -52,59 +61,87 @@ export class Moving {
   /** Handles drags that begin on a copy. */
   watch(holder: HTMLElement, placeOf: (event: PointerEvent) => Point, signal: AbortSignal): void {
     const drags: Drags = {
-      begin: (at) => this.isOn && this.#begin(at),
+      begin: (at, { shiftKey }) => this.isOn && !this.#scene.isHot && this.#begin(at, shiftKey),
       follow: (at) => this.#follow(at, false),
       end: (at) => {
-        if (this.#drag?.hasMoved === true) this.#follow(at, true);
+        const drag = this.#drag;
+        if (drag?.hasMoved === true) this.#follow(at, true);
+        else if (drag !== null && this.chosen.length > 1) this.#reports.selected({ place: drag.place, isMore: false });
         this.#drag = null;
       },
     };
     watchDrags(holder, placeOf, drags, signal);
   }
 
-  /** Moves a copy by keyboard. */
-  step(place: number | null, x_mm: number, y_mm: number, turn_deg: number): void {
-    const copy = this.#at(place);
-    if (copy === undefined) return;
-    this.#reports.moved({
-      place: copy.place,
-      x_mm: rounded(copy.x_mm + x_mm),
-      y_mm: rounded(copy.y_mm + y_mm),
-      turn_deg: (copy.turn_deg + turn_deg) % 360,
-      final: true,
-    });
+  /** Moves the selected copies by keyboard. */
+  step(x_mm: number, y_mm: number, turn_deg: number): void {
+    this.#tell(this.#standing, x_mm, y_mm, true, turn_deg);
   }
 
-  #at(place: number | null): Copy | undefined {
-    return this.copies.find((copy) => copy.place === place);
+  /** Moves the selected copies by the handles, from where they stood when the drag began. */
+  shift(x_mm: number, y_mm: number, final: boolean): void {
+    this.#held ??= this.#standing;
+    this.#tell(this.#held, x_mm, y_mm, final);
+    if (final) this.#held = null;
   }
 
-  #begin(at: Point): boolean {
-    const ray = this.#scene.worldRayAt(...at);
-    const hit = hitBy(ray, this.copies, (copy) => this.#scene.copies.sizeOf(copy.shape));
+  /** Selects the copy under a point; false if there is none, or only that one is selected. */
+  choose(at: Point, isMore: boolean): boolean {
+    const place = this.at(at);
+    if (place === null || (!isMore && this.chosen.length === 1 && this.chosen[0] === place)) return false;
+    this.#reports.selected({ place, isMore });
+    return true;
+  }
+
+  /** Index of the copy under a point; null if there is none. */
+  at(at: Point): number | null {
+    return this.#hit(at)?.copy.place ?? null;
+  }
+
+  get #standing(): readonly Copy[] {
+    return this.copies.filter(({ place }) => this.chosen.includes(place));
+  }
+
+  #hit(at: Point): ReturnType<typeof hitBy> {
+    return hitBy(this.#scene.worldRayAt(...at), this.copies, (copy) => this.#scene.copies.sizeOf(copy.shape));
+  }
+
+  #begin(at: Point, isMore: boolean): boolean {
+    const hit = this.#hit(at);
     if (hit === null) return false;
     const { copy, point } = hit;
+    const isChosen = this.chosen.includes(copy.place);
+    if (isMore || !isChosen) this.#reports.selected({ place: copy.place, isMore });
+    if (isMore) return true;
     this.#drag = {
       place: copy.place,
-      grasp: new Vector3(copy.x_mm, copy.y_mm, 0).sub(point).setZ(0),
+      from: point,
       plane: GROUND.clone().translate(new Vector3(0, 0, point.z)),
+      copies: isChosen ? this.#standing : [copy],
       hasMoved: false,
     };
-    this.#reports.selected(copy.place);
     return true;
   }
 
   #follow(at: Point, final: boolean): void {
     const drag = this.#drag;
-    const copy = this.#at(drag?.place ?? null);
-    if (drag === null || copy === undefined) return;
-    const point = this.#scene.worldRayAt(...at).intersectPlane(drag.plane, new Vector3());
-    if (point === null) return;
-    const to = point.add(drag.grasp);
-    const [x_mm, y_mm] = [rounded(to.x), rounded(to.y)];
-    if (!final && x_mm === copy.x_mm && y_mm === copy.y_mm) return;
+    const point = drag === null ? null : this.#scene.worldRayAt(...at).intersectPlane(drag.plane, new Vector3());
+    if (drag === null || point === null) return;
+    const { x, y } = point.sub(drag.from);
+    if (!drag.hasMoved && !final && rounded(x) === 0 && rounded(y) === 0) return;
     drag.hasMoved = true;
-    this.#reports.moved({ place: copy.place, x_mm, y_mm, turn_deg: copy.turn_deg, final });
+    this.#tell(drag.copies, x, y, final);
+  }
+
+  #tell(copies: readonly Copy[], x_mm: number, y_mm: number, final: boolean, turn_deg = 0): void {
+    if (copies.length === 0) return;
+    const moved = copies.map((copy) => ({
+      place: copy.place,
+      x_mm: rounded(copy.x_mm + x_mm),
+      y_mm: rounded(copy.y_mm + y_mm),
+      turn_deg: (copy.turn_deg + turn_deg) % 360,
+    }));
+    this.#reports.moved({ copies: moved, final });
   }
 }
 

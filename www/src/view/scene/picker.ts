@@ -12,6 +12,7 @@ import {
   Vector3,
   WebGLRenderTarget,
   type BufferGeometry,
+  type IUniform,
   type OrthographicCamera,
   type PerspectiveCamera,
   type WebGLRenderer,
@@ -26,17 +27,20 @@ export interface Hit {
 
 export class Picker {
   readonly #target = new WebGLRenderTarget(1, 1, { minFilter: NearestFilter, magFilter: NearestFilter });
-  readonly #material = new RawShaderMaterial({
-    glslVersion: GLSL3,
-    vertexShader: PICK_VERTEX,
-    fragmentShader: PICK_FRAGMENT,
-    side: DoubleSide,
-  });
+  readonly #material: RawShaderMaterial;
   readonly #mesh = new Mesh<BufferGeometry, RawShaderMaterial>();
   readonly #scene = new Scene();
   readonly #ray = new Raycaster();
 
-  constructor() {
+  /** @param cut height above which nothing is met, mm */
+  constructor(cut: IUniform<number>) {
+    this.#material = new RawShaderMaterial({
+      glslVersion: GLSL3,
+      vertexShader: PICK_VERTEX,
+      fragmentShader: PICK_FRAGMENT,
+      side: DoubleSide,
+      uniforms: { cut },
+    });
     this.#mesh.material = this.#material;
     this.#mesh.matrixAutoUpdate = false;
     this.#mesh.matrixWorldAutoUpdate = false;

@@ -6,8 +6,10 @@ export const DRAG_FROM_PX = 4;
 export type Point = readonly [x_px: number, y_px: number];
 
 export interface PointerReports {
-  /** Called on a press and release in one place with the main button. */
-  clicked(at: Point): void;
+  /** Called on a press and release in one place with the main button; `isMore` with Shift. */
+  clicked(at: Point, isMore: boolean): void;
+  /** Called on the same with the secondary button. */
+  menu(at: Point): void;
   /** Called with the position of a pointer without a pressed button, at most once per frame; null when it has left. */
   hovered(at: Point | null): void;
 }
@@ -37,7 +39,7 @@ export function watchPointer(surface: HTMLElement, reports: PointerReports, sign
   surface.addEventListener(
     "pointerdown",
     (event) => {
-      down = event.isPrimary && event.button === 0 ? { id: event.pointerId, at: place(event) } : null;
+      down = event.isPrimary && (event.button === 0 || event.button === 2) ? { id: event.pointerId, at: place(event) } : null;
     },
     options,
   );
@@ -54,7 +56,10 @@ export function watchPointer(surface: HTMLElement, reports: PointerReports, sign
     (event) => {
       const at = place(event);
       if (down?.id !== event.pointerId) return;
-      if (Math.hypot(at[0] - down.at[0], at[1] - down.at[1]) <= DRAG_FROM_PX) reports.clicked(at);
+      if (Math.hypot(at[0] - down.at[0], at[1] - down.at[1]) <= DRAG_FROM_PX) {
+        if (event.button === 2) reports.menu(at);
+        else reports.clicked(at, event.shiftKey);
+      }
       down = null;
     },
     options,

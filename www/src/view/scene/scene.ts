@@ -27,6 +27,7 @@ import type { Rgb } from "../legend/palette.js";
 import { Picker, type Hit } from "./picker.js";
 import { places } from "./places.js";
 import { Plate, type BuildVolume } from "./plate.js";
+import { Selection } from "./selection.js";
 import type { Rotation, Triple } from "./pose.js";
 import type { Viewpoint } from "./viewpoint.js";
 
@@ -69,10 +70,11 @@ export class Scene {
   readonly #marker = new Marker();
   /** Outlines of other places. */
   readonly #places = new Marker(true);
+  readonly #selection = new Selection();
   readonly #renderer: WebGLRenderer;
   readonly #scene = new ThreeScene();
   readonly #gizmo: Gizmo;
-  readonly #picker = new Picker();
+  readonly #picker = new Picker(this.model.cut);
   readonly #offscreen: Offscreen;
   readonly #face = new Mesh(
     new BufferGeometry(),
@@ -102,6 +104,8 @@ export class Scene {
   /** All copies on the plate; empty for a single model. */
   #copied: readonly Copy[] = [];
   #isColliding = false;
+  /** Indices of the selected copies. */
+  #chosen: readonly number[] = [];
 
   /** @param context WebGL context of the canvas, with alpha */
   constructor(
@@ -120,7 +124,7 @@ export class Scene {
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
     this.model.stand.add(this.#marker.group, this.#places.group, this.markers.group);
-    this.#scene.add(this.model.stand, this.copies.group, this.plate.group);
+    this.#scene.add(this.model.stand, this.copies.group, this.plate.group, this.#selection.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
       held: (on) => {
@@ -182,6 +186,16 @@ export class Scene {
     this.copies.set(copies, selected);
     this.#fitPlate();
     if (copies.length !== count) this.cameras.reset(this.#size_mm);
+    this.setChosen(this.#chosen);
+    this.#showHandles();
+    this.invalidate();
+  }
+
+  /** Outlines the selected copies, by their indices. A single copy needs no outline. */
+  setChosen(chosen: readonly number[]): void {
+    this.#chosen = chosen;
+    const copies = this.#copied.length < 2 ? [] : this.#copied.filter(({ place }) => chosen.includes(place));
+    this.#selection.set(copies, ({ shape }) => this.copies.sizeOf(shape));
     this.invalidate();
   }
 
@@ -201,7 +215,14 @@ export class Scene {
     this.model.setPose(rotation, scale);
     this.#fitPlate();
     if (follow) this.cameras.follow(this.#size_mm);
+    this.#showHandles();
     this.invalidate();
+  }
+
+  /** Cuts everything off above a height, mm; null: nothing. */
+  setCut(cut_mm: number | null): void {
+    this.model.setCut(cut_mm);
+    this.copies.setCut(cut_mm !== null);
   }
 
   setVolume(volume: BuildVolume | null): void {
@@ -214,6 +235,7 @@ export class Scene {
     this.plate.setTheme(ink, bad, shadow);
     this.copies.setBad(bad);
     this.markers.setTheme(accent, bad);
+    this.#selection.setTheme(accent);
     this.model.setResin(resin);
     this.#face.material.color.setRGB(accent[0] / 255, accent[1] / 255, accent[2] / 255, "srgb");
     this.invalidate();
@@ -227,7 +249,7 @@ export class Scene {
     this.#isAligned = isAligned;
     this.cameras.setAligned(isAligned);
     this.plate.group.visible = !isAligned;
-    this.#showRings();
+    this.#showHandles();
     return alignment;
   }
 
@@ -236,7 +258,7 @@ export class Scene {
     if (tool !== "flat") this.setFace(null);
     this.markers.group.visible = places(tool);
     this.model.setSeeThrough(tool === "drains");
-    this.#showRings();
+    this.#showHandles();
     this.invalidate();
   }
 
@@ -326,6 +348,7 @@ export class Scene {
     this.#marker.dispose();
     this.#places.dispose();
     this.markers.dispose();
+    this.#selection.dispose();
     this.model.dispose();
     this.#face.geometry.dispose();
     this.#face.material.dispose();
@@ -364,8 +387,9 @@ export class Scene {
     return this.#isGone ? null : hit;
   }
 
-  #showRings(): void {
-    this.#gizmo.show(this.#tool === "rotate" ? this.model.pivot : null, this.cameras.current);
+  #showHandles(): void {
+    const middle = new Vector3().setFromMatrixPosition(this.model.stand.matrix).setZ(this.model.size_mm[2] / 2);
+    this.#gizmo.show(this.#tool, this.model.pivot, middle, this.cameras.current);
   }
 
   #draw(): void {

@@ -4,6 +4,11 @@ import { LAYER_AT_GLSL } from "./lookup.js";
 import { PALETTE_SIZE } from "../legend/palette.js";
 import { WALLS_GLSL } from "../walls/colours.js";
 
+/** Colour of the section of a model that is cut, which is in no scale. */
+const SECTION = [0.95, 0.96, 0.98] as const;
+
+const vec3 = (parts: readonly number[]): string => `vec3(${parts.join(", ")})`;
+
 const HEAD = /* glsl */ `
 precision highp float;
 precision highp int;
@@ -67,6 +72,7 @@ uniform bool byThickness;
 uniform vec3 resin;
 uniform vec2 band;
 uniform float opacity;
+uniform float cut;
 in vec3 world;
 in vec3 eye;
 out vec4 colour;
@@ -151,6 +157,19 @@ vec3 base(float width, float upwards) {
 #endif
 
 void main() {
+#ifdef CUT
+  if (world.z > cut) discard;
+#ifdef VOID
+  // Only from inside: from outside, solid material is around it.
+  if (gl_FrontFacing) discard;
+#else
+  // Behind the surface is the inside: flat, it looks like the section.
+  if (!gl_FrontFacing) {
+    colour = vec4(${vec3(SECTION)}, opacity);
+    return;
+  }
+#endif
+#endif
   // The range of heights that this pixel covers.
   float width = fwidth(world.z);
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
@@ -174,16 +193,22 @@ void main() {
 /** Facet under a pixel, as its number plus one in four bytes; zero means no facet. */
 export const PICK_VERTEX = /* glsl */ `${HEAD}${MATRICES}
 flat out uint facet;
+out float height;
 void main() {
   facet = uint(gl_VertexID / 3 + 1);
-  gl_Position = projectionMatrix * viewMatrix * modelMatrix * vec4(position, 1.0);
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  height = world.z;
+  gl_Position = projectionMatrix * viewMatrix * world;
 }
 `;
 
 export const PICK_FRAGMENT = /* glsl */ `${HEAD}
+uniform float cut;
 flat in uint facet;
+in float height;
 out vec4 colour;
 void main() {
+  if (height > cut) discard;
   colour = vec4(uvec4(facet, facet >> 8u, facet >> 16u, facet >> 24u) & 255u) / 255.0;
 }
 `;
