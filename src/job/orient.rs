@@ -15,8 +15,8 @@ use crate::model::{Bounds, Mesh, ModelFile, Pose};
 #[cfg(not(target_arch = "wasm32"))]
 use crate::orientation::shard::{self, Shard};
 use crate::orientation::{
-    Candidate, Exclusion, Metrics, Placement, Scale, Search, SearchOptions, SearchResult, Surface,
-    Task, TaskResult,
+    Candidate, Exclusion, Metrics, Placement, Search, SearchOptions, SearchResult, Surface, Task,
+    TaskResult, Terms,
 };
 use crate::parallel;
 use crate::prepare::{SupportProfile, Supporting};
@@ -36,7 +36,7 @@ pub struct OrientationReport {
     /// The options of the search.
     pub search: SearchOptions,
     /// Reference values of energies.
-    pub scale: Scale,
+    pub scale: Terms,
     /// The candidate for the current orientation.
     pub now: Candidate,
     /// Up to three candidates, best first and at least 20° apart.

@@ -1,12 +1,12 @@
 //! Energies of candidates (eq. 25), their local minima, and the best distinct candidates.
 //!
-//! ε of eq. 25 is the largest error of a layer, as in table 3. Plans keep it near the tolerance, so roughness and overhang separate
-//! directions better and can take its place.
+//! ε of eq. 25 is the largest error of a layer, as in table 3. Plans keep it near the tolerance, so other terms separate directions
+//! better: one can take its place, or a ranking weighs all.
 
 use glam::DVec3;
 
 use super::directions::spacing;
-use super::{Candidate, Cost, Exclusion, Metrics, Quality, Scale, SearchOptions};
+use super::{Candidate, Cost, Exclusion, Metrics, Quality, SearchOptions, Terms};
 use crate::argsort::argsort;
 
 /// Maximum number of refinements.
@@ -21,22 +21,49 @@ const BEST: usize = 3;
 /// Cosine of the minimum angle between distinct directions, 20°.
 const DISTINCT: f64 = 0.939_692_620_785_908_4;
 
+impl Terms {
+    /// The terms of a candidate that can be printed.
+    fn of(metrics: &Metrics, height: f64) -> Self {
+        Self {
+            layers: metrics.layers as f64,
+            time: metrics.print_time_s,
+            error: metrics.max_error,
+            roughness: metrics.roughness_mm,
+            overhang: metrics.overhang_mm2,
+            islands: metrics.islands as f64,
+            cups: metrics.cups_mm2,
+            supports: metrics.support_ml,
+            contacts: metrics.contact_mm2,
+            height,
+        }
+    }
+}
+
 impl SearchOptions {
-    fn terms(&self, metrics: &Metrics) -> [f64; 2] {
+    /// Weights of the terms, which add up to 1: those of the ranking, or α and 1 − α.
+    fn weights(&self) -> Terms {
+        if let Some(ranking) = self.ranking {
+            let weights = ranking.to_array();
+            let sum: f64 = weights.iter().sum();
+            return Terms::from_array(weights.map(|it| if sum > 0.0 { it / sum } else { 0.0 }));
+        }
+        let mut weights = Terms::default();
         let cost = match self.cost {
-            Cost::Layers => metrics.layers as f64,
-            Cost::Time => metrics.print_time_s,
+            Cost::Layers => &mut weights.layers,
+            Cost::Time => &mut weights.time,
         };
+        *cost = self.alpha;
         let quality = match self.quality {
-            Quality::Error => metrics.max_error,
-            Quality::Roughness => metrics.roughness_mm,
-            Quality::Overhang => metrics.overhang_mm2,
-            Quality::Islands => metrics.islands as f64,
-            Quality::Cups => metrics.cups_mm2,
-            Quality::Supports => metrics.support_ml,
-            Quality::Contacts => metrics.contact_mm2,
+            Quality::Error => &mut weights.error,
+            Quality::Roughness => &mut weights.roughness,
+            Quality::Overhang => &mut weights.overhang,
+            Quality::Islands => &mut weights.islands,
+            Quality::Cups => &mut weights.cups,
+            Quality::Supports => &mut weights.supports,
+            Quality::Contacts => &mut weights.contacts,
         };
-        [cost, quality]
+        *quality = 1.0 - self.alpha;
+        weights
     }
 
     /// Returns the limit that an orientation exceeds, if any.
@@ -55,17 +82,23 @@ impl SearchOptions {
 
     /// Excludes a candidate that exceeds a limit, and sets the energy of any other, relative to the largest terms of all
     /// candidates (eq. 25). Those that cannot be printed stay as they are.
-    pub(crate) fn rate(&self, candidate: &mut Candidate, scale: &Scale) {
+    pub(crate) fn rate(&self, candidate: &mut Candidate, scale: &Terms) {
         candidate.energy = None;
         let Some(metrics) = &candidate.metrics else {
             return;
         };
         candidate.excluded = self.exclusion(metrics);
         if candidate.excluded.is_none() {
-            let [cost, quality] = self.terms(metrics);
+            let terms = Terms::of(metrics, candidate.size_mm[2]).to_array();
+            let weighted = terms
+                .iter()
+                .zip(scale.to_array())
+                .zip(self.weights().to_array());
             let part = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
-            let quality = (1.0 - self.alpha) * part(quality, scale.quality);
-            candidate.energy = Some(self.alpha * part(cost, scale.cost) + quality);
+            let energy = weighted.fold(0.0, |sum, ((&value, most), weight)| {
+                sum + weight * part(value, most)
+            });
+            candidate.energy = Some(energy);
         }
     }
 }
@@ -74,17 +107,19 @@ impl SearchOptions {
 pub(super) fn rate<'a>(
     candidates: impl IntoIterator<Item = &'a mut Candidate>,
     search: &SearchOptions,
-) -> Scale {
+) -> Terms {
     let mut candidates: Vec<&mut Candidate> = candidates.into_iter().collect();
-    let mut scale = Scale {
-        cost: 0.0,
-        quality: 0.0,
-    };
-    for metrics in candidates.iter().filter_map(|it| it.metrics.as_ref()) {
-        let [cost, quality] = search.terms(metrics);
-        scale.cost = scale.cost.max(cost);
-        scale.quality = scale.quality.max(quality);
+    let mut scale = [0.0; Terms::NAMES.len()];
+    for candidate in &candidates {
+        let Some(metrics) = &candidate.metrics else {
+            continue;
+        };
+        let terms = Terms::of(metrics, candidate.size_mm[2]).to_array();
+        for (most, value) in scale.iter_mut().zip(terms) {
+            *most = f64::max(*most, value);
+        }
     }
+    let scale = Terms::from_array(scale);
     for candidate in &mut candidates {
         search.rate(candidate, &scale);
     }

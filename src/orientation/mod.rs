@@ -46,6 +46,9 @@ pub struct SearchOptions {
     pub cost: Cost,
     /// The second term of the energy.
     pub quality: Quality,
+    /// Weights of all terms, in place of `alpha`, `cost` and `quality`: what a print needs is seldom two terms alone. Only their ratios
+    /// count.
+    pub ranking: Option<Terms>,
     /// Excludes orientations with a larger area that would need support, in mm²; no limit if absent.
     pub most_overhang_mm2: Option<f64>,
     /// Excludes orientations with more islands; no limit if absent.
@@ -61,6 +64,7 @@ impl Default for SearchOptions {
             alpha: 0.5,
             cost: Cost::Layers,
             quality: Quality::Error,
+            ranking: None,
             most_overhang_mm2: None,
             most_islands: None,
             most_cups_mm2: None,
@@ -87,7 +91,9 @@ impl SearchOptions {
             ("most_overhang_mm2", self.most_overhang_mm2),
             ("most_cups_mm2", self.most_cups_mm2),
         ];
-        for (limit, value) in limits {
+        let weights = self.ranking.into_iter().flat_map(|it| it.to_array());
+        let weights = weights.map(|weight| ("ranking", Some(weight)));
+        for (limit, value) in limits.into_iter().chain(weights) {
             if let Some(value) = value.filter(|it| !(0.0..=f64::MAX).contains(it)) {
                 return Err(SearchError::Limit { limit, value });
             }
@@ -211,13 +217,94 @@ pub struct Metrics {
     pub contact_mm2: f64,
 }
 
-/// Reference values of the terms of energies: the largest terms of all directions.
-#[derive(Debug, Clone, Copy, PartialEq, Serialize, Deserialize)]
+/// Terms of energies, less of each being better: their weights, or their largest values of all directions, in the units of
+/// [`Metrics`].
+#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-pub struct Scale {
-    /// The largest cost: layers, or seconds.
-    pub cost: f64,
-    /// The largest quality figure, in the metric's unit, mm or mm².
-    pub quality: f64,
+#[serde(default, deny_unknown_fields)]
+pub struct Terms {
+    /// The number of layers.
+    pub layers: f64,
+    /// The print time.
+    pub time: f64,
+    /// The largest error of a layer.
+    pub error: f64,
+    /// The mean roughness of the surface.
+    pub roughness: f64,
+    /// The area that would need support.
+    pub overhang: f64,
+    /// The number of islands.
+    pub islands: f64,
+    /// The area of cups.
+    pub cups: f64,
+    /// The volume of supports.
+    pub supports: f64,
+    /// The area in which supports touch the model, weighted.
+    pub contacts: f64,
+    /// The height of the model, in mm.
+    pub height: f64,
+}
+
+impl Terms {
+    /// Names of the terms, in the order of [`Self::to_array`].
+    pub const NAMES: [&str; 10] = [
+        "layers",
+        "time",
+        "error",
+        "roughness",
+        "overhang",
+        "islands",
+        "cups",
+        "supports",
+        "contacts",
+        "height",
+    ];
+
+    /// The terms in the order of [`Self::NAMES`].
+    pub fn to_array(self) -> [f64; 10] {
+        let Self {
+            layers,
+            time,
+            error,
+            roughness,
+            overhang,
+            islands,
+            cups,
+            supports,
+            contacts,
+            height,
+        } = self;
+        [
+            layers, time, error, roughness, overhang, islands, cups, supports, contacts, height,
+        ]
+    }
+
+    /// The terms from that order.
+    pub fn from_array(terms: [f64; 10]) -> Self {
+        let [
+            layers,
+            time,
+            error,
+            roughness,
+            overhang,
+            islands,
+            cups,
+            supports,
+            contacts,
+            height,
+        ] = terms;
+        Self {
+            layers,
+            time,
+            error,
+            roughness,
+            overhang,
+            islands,
+            cups,
+            supports,
+            contacts,
+            height,
+        }
+    }
 }

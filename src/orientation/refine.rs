@@ -3,7 +3,7 @@
 use glam::DVec3;
 
 use super::directions::{around, spacing};
-use super::{Candidate, Scale, SearchOptions};
+use super::{Candidate, SearchOptions, Terms};
 
 /// A refinement ends when its step is smaller than this, in radians: 0.2°.
 const FINEST: f64 = 0.0035;
@@ -36,7 +36,7 @@ impl Refinement {
     }
 
     /// Moves to the best candidate of the ring, or halves the step if none is better.
-    pub fn accept(&mut self, ring: Vec<Candidate>, options: &SearchOptions, scale: &Scale) {
+    pub fn accept(&mut self, ring: Vec<Candidate>, options: &SearchOptions, scale: &Terms) {
         let mut better: Option<Candidate> = None;
         for mut found in ring {
             options.rate(&mut found, scale);

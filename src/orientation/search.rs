@@ -9,7 +9,7 @@ use tsify::Tsify;
 use super::energy::{best, minima, rate};
 use super::refine::Refinement;
 use super::shard::Shard;
-use super::{Candidate, Scale, SearchError, SearchOptions};
+use super::{Candidate, SearchError, SearchOptions, Terms};
 
 /// Directions per task of the first pass: few enough for all workers to finish together, and enough to be worth a message.
 const CHUNK: usize = 8;
@@ -42,7 +42,7 @@ pub struct SearchResult {
     /// See [`Search::best`].
     pub best: Vec<Candidate>,
     /// Reference values of energies.
-    pub scale: Scale,
+    pub scale: Terms,
     /// The rated candidates of the first pass, one per direction.
     pub candidates: Vec<Candidate>,
 }
@@ -96,7 +96,7 @@ pub struct Search {
 /// Results of rating the candidates of the first pass.
 #[derive(Debug, Clone)]
 struct Rated {
-    scale: Scale,
+    scale: Terms,
     refinements: Vec<Refinement>,
 }
 

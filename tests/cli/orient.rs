@@ -78,6 +78,20 @@ fn orient_finds_the_best_direction_and_applies_it() {
 
     assert_fails(&cusp(&["orient", &model, "--apply", "1"]), 2, "--output");
     assert_fails(&cusp(&["orient", &model, "--alpha", "2"]), 2, "from 0 to 1");
+    let ranked = ["orient", &model, "--directions", "60", "--json"];
+    let ranked = json(&cusp(&[&ranked[..], &["--rank", "height=1"]].concat()));
+    assert_eq!(ranked["search"]["ranking"]["height"], 1.0);
+    let height = |candidate: &Value| candidate["size_mm"][2].as_f64().unwrap();
+    let candidates = ranked["candidates"].as_array().unwrap();
+    let least = candidates.iter().map(height).fold(f64::INFINITY, f64::min);
+    assert!(height(&ranked["best"][0]) <= least);
+    assert_fails(
+        &cusp(&["orient", &model, "--rank", "beauty=1"]),
+        2,
+        "islands=3",
+    );
+    let both = ["orient", &model, "--rank", "height=1", "--alpha", "0.5"];
+    assert_fails(&cusp(&both), 2, "cannot be used with");
     let two = cusp(&["orient", &model, &model, "--apply", "1", "-o", &flat]);
     assert_fails(&two, 1, "--apply is for one model");
     let itself = cusp(&["orient", &model, "--apply", "1", "-o", &model]);

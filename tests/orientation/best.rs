@@ -3,7 +3,7 @@
 use crate::common::{assert_near, load, quiet, solids};
 use cusp_slicer::job::{Options, OrientationReport, Stage};
 use cusp_slicer::orientation::{
-    Candidate, Cost, Exclusion, Metrics, Quality, Search, SearchOptions, minima,
+    Candidate, Cost, Exclusion, Metrics, Quality, Search, SearchOptions, Terms, minima,
 };
 use glam::{DVec3, Quat, Vec3};
 use std::ops::ControlFlow;
@@ -187,9 +187,43 @@ fn alpha_and_the_terms_do_what_they_say() {
     let found = search(0.3, Cost::Time, Quality::Overhang);
     let most = |of: fn(&Metrics) -> f64| rated(&found).map(|(_, it)| of(&it)).fold(0.0, f64::max);
     let (time, overhang) = (most(|it| it.print_time_s), most(|it| it.overhang_mm2));
-    assert_eq!((found.scale.cost, found.scale.quality), (time, overhang));
+    assert_eq!((found.scale.time, found.scale.overhang), (time, overhang));
     for (energy, metrics) in rated(&found) {
         let expected = 0.3 * metrics.print_time_s / time + 0.7 * metrics.overhang_mm2 / overhang;
+        assert_near(energy, expected, 1e-12);
+    }
+}
+
+#[test]
+fn a_ranking_weighs_every_term_whatever_the_weights_add_up_to() {
+    let mut slicer = load(&bean());
+    let directions = slicer.directions(&options(), 200).unwrap();
+    let candidates = measure(&mut slicer, &options(), &directions);
+    let ranking = Terms {
+        islands: 6.0,
+        supports: 3.0,
+        height: 1.0,
+        ..Terms::default()
+    };
+    let search = SearchOptions {
+        ranking: Some(ranking),
+        ..few(200)
+    };
+    let search = Search::of_measured(search, candidates).unwrap();
+    let found = slicer
+        .finish_search(&options(), search, &mut quiet)
+        .unwrap();
+    let highest = found.candidates.iter().filter(|it| it.metrics.is_some());
+    let highest = highest.map(|it| it.size_mm[2]).fold(0.0, f64::max);
+    assert_eq!(found.scale.height, highest);
+    for candidate in &found.candidates {
+        let (Some(energy), Some(metrics)) = (candidate.energy, candidate.metrics) else {
+            continue;
+        };
+        let of = |value: f64, most: f64| if most > 0.0 { value / most } else { 0.0 };
+        let expected = 0.6 * of(metrics.islands as f64, found.scale.islands)
+            + 0.3 * of(metrics.support_ml, found.scale.supports)
+            + 0.1 * candidate.size_mm[2] / highest;
         assert_near(energy, expected, 1e-12);
     }
 }

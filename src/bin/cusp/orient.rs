@@ -9,7 +9,7 @@ use cusp_slicer::job::{LoadedModel, Options, OrientationPart, OrientationReport}
 use cusp_slicer::model::Pose;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::orientation::{
-    Candidate, Cost, Exclusion, MAX_DIRECTIONS, Quality, SearchOptions,
+    Candidate, Cost, Exclusion, MAX_DIRECTIONS, Quality, SearchOptions, Terms,
 };
 
 use crate::arguments::{Choices, Settings};
@@ -20,7 +20,7 @@ use crate::files::{Output, Reading, parse_json};
 use crate::progress::Bar;
 use crate::terminal::{duration, print, print_json, print_json_line, say, to_json};
 use crate::usage::check_json;
-use crate::values::{fraction, shard};
+use crate::values::{fraction, rank, shard};
 use crate::watch::{is_stopped, stop_on_interrupt};
 
 /// The options of the orientation search.
@@ -44,6 +44,10 @@ pub struct Orienting {
     /// Measure of quality; less is better
     #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
     quality: Quality,
+    /// Weigh all that a print needs, in place of two terms: layers, time, error, roughness, overhang, islands, cups, supports, contacts
+    /// or height, each from 0; repeatable
+    #[arg(long, value_name = "NAME=WEIGHT", value_parser = rank, conflicts_with_all = ["alpha", "cost", "quality"], help_heading = "Search")]
+    rank: Vec<(usize, f64)>,
     /// Exclude orientations with a larger area that needs support, in mm²
     #[arg(long, value_name = "MM2", help_heading = "Search")]
     most_overhang: Option<f64>,
@@ -76,12 +80,21 @@ pub struct Orienting {
 }
 
 impl Orienting {
+    fn ranking(&self) -> Option<Terms> {
+        let mut terms = [0.0; Terms::NAMES.len()];
+        for &(term, weight) in &self.rank {
+            terms[term] = weight;
+        }
+        (!self.rank.is_empty()).then(|| Terms::from_array(terms))
+    }
+
     fn search(&self) -> SearchOptions {
         SearchOptions {
             directions: self.directions as usize,
             alpha: self.alpha,
             cost: self.cost,
             quality: self.quality,
+            ranking: self.ranking(),
             most_overhang_mm2: self.most_overhang,
             most_islands: self.most_islands,
             most_cups_mm2: self.most_cups,

@@ -7,6 +7,7 @@ use clap::builder::{PossibleValue, StringValueParser, TypedValueParser};
 use clap::{Arg, Command};
 use cusp_slicer::job::Planner;
 use cusp_slicer::mask::LEVELS;
+use cusp_slicer::orientation::Terms;
 use cusp_slicer::orientation::shard::Shard;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::Drain;
@@ -74,6 +75,19 @@ pub fn size(text: &str) -> Result<(String, f64), String> {
         .filter(|&(_, size): &(&str, f64)| size.is_finite())
         .map(|(name, size)| (name.to_owned(), size))
         .ok_or_else(|| "give a name and a number, as spacing_mm=2.5".to_owned())
+}
+
+/// The index of a term of energies and its weight, as `islands=3`.
+pub fn rank(text: &str) -> Result<(usize, f64), String> {
+    let of = |name: &str| Terms::NAMES.iter().position(|&it| it == name.trim());
+    let parts = text.split_once('=');
+    let parts = parts.and_then(|(name, weight)| Some((of(name)?, weight.trim().parse().ok()?)));
+    parts
+        .filter(|&(_, weight): &(usize, f64)| (0.0..=f64::MAX).contains(&weight))
+        .ok_or_else(|| {
+            let names = Terms::NAMES.join(", ");
+            format!("give a name and a weight, as islands=3; the names are {names}")
+        })
 }
 
 /// Parses `auto`, or `X,Y,Z,DX,DY,DZ,DIAMETER`.

@@ -4,10 +4,10 @@
  * The types of the core are re-exported from the generated package, never copied: a change there is a type error here.
  */
 import type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff } from "../../pkg/cusp_slicer.js";
-import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, ReadOptions, SearchOptions, Task } from "../../pkg/cusp_slicer.js";
+import type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, ReadOptions, SearchOptions, Task, Terms } from "../../pkg/cusp_slicer.js";
 
 export type { Comparison, CureFit, Preview, MeshInfo, Metric, Options, Printer, Report, Resin, Stage, Tradeoff };
-export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, SearchOptions, Task };
+export type { ArrangeError, Candidate, Format, JobOptions, JobReport, Limits, Placement, PlatePrintability, Price, PriceItem, Prices, Printability, ProjectPart, SearchOptions, Task, Terms };
 export type {
   Arranging,
   Backend,

@@ -2,22 +2,20 @@
 import { room } from "./messages.js";
 
 export const orientationTexts = room("orientation", {
-  hint: "In another orientation, the model may need fewer layers or come out smoother.",
+  hint: "In another orientation, the model may need fewer supports, less time, or come out smoother.",
   find: "Find the best orientation",
   again: "Search again",
   stale: "Found with other settings than those on show.",
-  cost: "Cost",
-  costs: { layers: "Layers", time: "Print time" },
-  quality: "Quality",
-  /** Largest error, and its comparison, are words of the metric. */
+  /** Heading of the weights. */
+  counts: "What counts",
+  /** Weights from 0 to 3. */
+  strengths: ["not at all", "a little", "much", "most"],
+  height: "Height",
+  /** The largest error is a word of the metric. */
   qualities: { roughness: "Roughness", overhang: "Overhang", islands: "Islands", cups: "Suction areas", supports: "Supports", contacts: "Contacts" },
-  balance: "What counts more",
-  fewer: { layers: "Fewer layers", time: "Quicker" },
-  better: { roughness: "Smoother", overhang: "Less overhang", islands: "Fewer islands", cups: "Smaller suction areas", supports: "Less support", contacts: "Smaller contacts" },
   /** Precedes the three limits. */
   most: "Leave out directions with more than",
   limits: { overhang: "Overhang, mm²", islands: "Islands", cups: "Suction areas, mm²" },
-  parts: "{cost} {costPart}, {quality} {qualityPart}",
   sphere: "Sphere of directions",
   kind: "sphere",
   keys: "Arrow keys move from direction to direction. Enter applies the orientation.",
@@ -26,7 +24,7 @@ export const orientationTexts = room("orientation", {
   front: "Front",
   back: "Back",
   score: "Score",
-  legend: "Score: cost and quality as weighed above; lower is better",
+  legend: "Score: all that counts, as weighed below; lower is better",
   excluded: "Does not fit, or left out",
   upright: "Up, current orientation",
   why: {
@@ -92,7 +90,6 @@ export const orientationTexts = room("orientation", {
       less: "{amount} less contact",
       more: "{amount} more contact",
     },
-    same: { layers: "Same number of layers", time: "Same print time" },
   },
   rank: "Orientation {rank}",
   said: "{layers|one:# layer|other:# layers}, {time}, {head}: {error}",

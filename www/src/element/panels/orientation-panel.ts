@@ -22,12 +22,12 @@ import { typed } from "../parts/typed.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-const COSTS: readonly Aims["cost"][] = ["layers", "time"];
-const QUALITIES: readonly Aims["quality"][] = ["error", "roughness", "overhang", "islands", "cups", "supports", "contacts"];
+/** What a search weighs, in the order of the panel. */
+const RANKED = ["islands", "supports", "contacts", "cups", "overhang", "height", "time", "layers", "roughness", "error"] as const;
+/** Largest weight. */
+const MOST_WEIGHT = 3;
 /** Metrics with an exclusion limit, and the aims that hold it. */
 const LIMITS = { overhang: "most_overhang_mm2", islands: "most_islands", cups: "most_cups_mm2" } as const;
-/** Number of steps of the slider. */
-const STEPS = 20;
 /** Side length of a thumbnail in pixels; it is shown at half that size. */
 const PICTURE_PX = 256;
 
@@ -94,55 +94,36 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       </div>
       ${found === null && busy === null ? html`<p class="quiet hint">${words.hint}</p>` : nothing}
       ${found !== null && busy === null && !isCurrent ? html`<p class="stale">${words.stale}</p>` : nothing}
-      ${busy === null ? nothing : this.#progress(busy, searched)} ${this.#aims(searched)}
-      ${found === null ? nothing : this.#results(searched, found)}
+      ${busy === null ? nothing : this.#progress(busy, searched)}
+      ${found === null ? nothing : this.#results(searched, found)} ${this.#aims(searched)}
       <p class="visually-hidden" role="status">${this.#announcement(searched)}</p>
     `;
   }
 
   #aims({ aims, options }: Searched): TemplateResult {
-    const { texts, format } = this.language;
+    const { texts } = this.language;
     const words = orientationTexts(this.language);
-    const { alpha, cost, quality } = aims;
-    const errors = texts.metrics[options?.metric ?? this.metric];
-    const qualities = { error: errors.head, ...words.qualities };
-    const better = { error: errors.less, ...words.better };
-    const choice = <T extends string>(
-      name: string,
-      value: T,
-      values: readonly T[],
-      names: Readonly<Record<T, string>>,
-      set: (value: T) => void,
-    ): TemplateResult => html`<label class="field">
-      <span>${name}</span>
-      <span class="list">
-        <select @change=${({ target }: Event) => set((target as HTMLSelectElement).value as T)}>
-          ${values.map((it) => html`<option value=${it} ?selected=${it === value}>${names[it]}</option>`)}
-        </select>
-      </span>
+    const { head } = texts.metrics[options?.metric ?? this.metric];
+    const names = { ...words.qualities, layers: words.layers, time: words.time, height: words.height, error: head };
+    const weight = (term: keyof typeof names): TemplateResult => html`<label class="field">
+      <span>${names[term]}</span>
+      <input
+        type="range"
+        min="0"
+        max=${MOST_WEIGHT}
+        .value=${live(String(aims.ranking[term]))}
+        aria-valuetext=${words.strengths[aims.ranking[term]] ?? nothing}
+        @input=${({ target }: Event) => this.#aim({ ranking: { ...aims.ranking, [term]: Number((target as HTMLInputElement).value) } })}
+      />
     </label>`;
-    const said = words.parts({ cost: words.costs[cost], costPart: format.percent(alpha), quality: qualities[quality], qualityPart: format.percent(1 - alpha) });
-    return html`<div class="aims">
-      ${choice(words.cost, cost, COSTS, words.costs, (cost) => this.#aim({ cost }))}
-      ${choice(words.quality, quality, QUALITIES, qualities, (quality) => this.#aim({ quality }))}
-      <div class="balance">
-        <label for="balance">${words.balance}</label>
-        <input
-          id="balance"
-          type="range"
-          min="0"
-          max=${STEPS}
-          .value=${live(String(Math.round((1 - alpha) * STEPS)))}
-          aria-valuetext=${said}
-          @input=${({ target }: Event) => this.#aim({ alpha: 1 - Number((target as HTMLInputElement).value) / STEPS })}
-        />
-        <div class="ends quiet"><span>${words.fewer[cost]}</span><span>${better[quality]}</span></div>
-      </div>
+    return html`<details class="aims">
+      <summary>${words.counts}</summary>
+      <div class="weights">${RANKED.map(weight)}</div>
       <div class="limits" role="group" aria-labelledby="limits">
         <p class="quiet" id="limits">${words.most}</p>
         ${(Object.keys(LIMITS) as (keyof typeof LIMITS)[]).map((name) => this.#limit(name, aims))}
       </div>
-    </div>`;
+    </details>`;
   }
 
   /** Field for the maximum of a metric; empty for no limit. */
@@ -276,9 +257,9 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   }
 
   /** Figures of a pose: layers and time, then its differences from the current pose. */
-  #figures({ metrics }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
+  #figures({ metrics, size_mm }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
     const { language } = this;
-    const { texts } = language;
+    const { texts, format } = language;
     const words = orientationTexts(language);
     if (metrics === null) return html`${nothing}`;
     const metric = options?.metric ?? this.metric;
@@ -292,6 +273,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
         <span title=${words.islandsHelp}>${words.islands} ${of("islands")}</span>
         <span title=${words.cupsHelp}>${words.cups} ${of("cups")}</span>
         <span title=${words.supportsHelp}>${words.qualities.supports} ${of("supports")}</span>
+        <span>${words.height} ${format.mm(Math.round(10 * size_mm[2]) / 10)}</span>
         <span title=${words.contactsHelp}>${words.qualities.contacts} ${of("contacts")}</span>
       </span>`;
   }
@@ -300,7 +282,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
   #differences({ metrics }: Candidate, searched: Searched): string[] {
     const now = this.#measuredNow(searched)?.metrics ?? null;
     if (metrics === null || now === null) return [];
-    return differences(metrics, now, searched.aims, searched.options?.metric ?? this.metric, this.language);
+    return differences(metrics, now, searched.aims.ranking, searched.options?.metric ?? this.metric, this.language);
   }
 
   #measuredNow({ now }: Searched): Candidate | null {

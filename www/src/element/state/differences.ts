@@ -1,14 +1,16 @@
 /** Metrics of orientations as text, and differences between two orientations. */
-import type { Candidate, Metric } from "../../api/wire.js";
+import type { Candidate, Metric, Terms } from "../../api/wire.js";
 import type { Language } from "../../texts/index.js";
 import { orientationTexts } from "../../texts/orientation.js";
 import { METRICS } from "./metric.js";
-import type { Aims } from "./orientation.js";
 
 export type Metrics = NonNullable<Candidate["metrics"]>;
 
 /** Metrics by which orientations are compared. */
-export type Term = Aims["cost"] | Aims["quality"];
+export type Term = Exclude<keyof Terms, "height">;
+
+/** Maximum number of differences. */
+const MOST = 4;
 
 const MICROMETRES = 1000;
 
@@ -50,11 +52,8 @@ export function figure(term: Term, metrics: Metrics, metric: Metric, language: L
   return writer(term, metric, language)(VALUES[term](metrics));
 }
 
-/**
- * Differences of `its` from `now`: the chosen cost, the chosen quality, and the overhang, which may need supports in any case. Values that
- * read the same are omitted, but an equal cost is stated.
- */
-export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims, metric: Metric, language: Language): string[] {
+/** Differences of `its` from `now`, those with the largest weight first. Values that read the same are omitted. */
+export function differences(its: Metrics, now: Metrics, ranking: Required<Terms>, metric: Metric, language: Language): string[] {
   const { metrics: names } = language.texts;
   const { differs } = orientationTexts(language);
   const difference = (term: Term): { amount: number; written: string; isLess: boolean } | null => {
@@ -73,6 +72,6 @@ export function differences(its: Metrics, now: Metrics, { cost, quality }: Aims,
     if (term === "error") return differs.error[way]({ head: names[metric].head, amount: written });
     return differs[term][way]({ amount: written });
   };
-  const qualities = quality === "overhang" ? [quality] : [quality, "overhang" as const];
-  return [words(cost) ?? differs.same[cost], ...qualities.flatMap((term) => words(term) ?? [])];
+  const terms = (Object.keys(VALUES) as Term[]).filter((term) => ranking[term] > 0).toSorted((a, b) => ranking[b] - ranking[a]);
+  return terms.flatMap((term) => words(term) ?? []).slice(0, MOST);
 }

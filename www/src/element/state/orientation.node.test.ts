@@ -2,7 +2,6 @@ import { readFile } from "node:fs/promises";
 import { beforeAll, expect, test } from "vitest";
 import { initSync, OrientationSearch, type Candidate, type SearchOptions } from "../../../pkg/cusp_slicer.js";
 import { packed, unpacked } from "../../api/candidates.js";
-import { DEFAULT_AIMS } from "./orientation.js";
 
 beforeAll(async () => {
   initSync({ module: await readFile(new URL("../../../pkg/cusp_slicer_bg.wasm", import.meta.url)) });
@@ -17,17 +16,4 @@ test("candidates come through the core as they are", () => {
   expect(through({})).toEqual(given.map((it) => ({ ...it, energy: it.excluded === null ? 1 : null })));
   const limits = { overhang: { most_overhang_mm2: 1 }, islands: { most_islands: 1 }, cups: { most_cups_mm2: 1 } } as const;
   for (const [excluded, limit] of Object.entries(limits)) expect(through(limit)).toEqual(given.map((it) => ({ ...it, excluded: it.excluded ?? excluded })));
-});
-
-test("the initial aims of the panel are the core's defaults", () => {
-  // Two candidates with such metrics have different energies for all aims.
-  const candidates = [1, 2].map((part): Candidate => {
-    const metrics = { layers: 10, print_time_s: 10 * part, max_error: 1 / part, roughness_mm: 1 / part ** 2, overhang_mm2: 1 / part ** 3, islands: 0, cups_mm2: 0, support_ml: 0, contact_mm2: 0 };
-    return { direction: [0, 0, 1], rotation: [0, 0, 0, 1], size_mm: [1, 1, 1], excluded: null, metrics, energy: null };
-  });
-  const energies = (search: SearchOptions): unknown => unpacked(OrientationSearch.of_measured(search, packed(candidates)).rated()).map((it) => it?.energy);
-  expect(energies(DEFAULT_AIMS)).toEqual(energies({}));
-  for (const other of [{ alpha: 0.4 }, { cost: "time" }, { quality: "roughness" }, { quality: "overhang" }] as const) {
-    expect(energies({ ...DEFAULT_AIMS, ...other })).not.toEqual(energies({}));
-  }
 });

@@ -2,7 +2,7 @@ import { beforeEach, expect, test } from "vitest";
 import { SCHEMA, type OrientCall, type OrientationReport } from "../../api/index.js";
 import { SlicerError } from "../../api/error.js";
 import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
-import { DEFAULT_AIMS, isPose, OrientationSearch, type Subject } from "./orientation.js";
+import { AIMS, type Aims, isPose, OrientationSearch, type Subject } from "./orientation.js";
 import { coloursOf, energyRange } from "../panels/orientation-sphere.js";
 import { metricRows } from "../panels/orientation-panel.js";
 import { moved, stepped } from "../parts/sphere-steps.js";
@@ -102,15 +102,16 @@ test("without a model, or with invalid settings, no search starts", () => {
 test("new aims rate the measured candidates again; aims changed during a search are rated once, at its end", async () => {
   void directions.start();
   const measured = [candidate(1), candidate(2)];
-  directions.aim({ alpha: 0.3 });
-  directions.aim({ alpha: 0.2 });
+  const ranked = (islands: number): Aims["ranking"] => ({ ...AIMS.ranking, islands });
+  directions.aim({ ranking: ranked(2) });
+  directions.aim({ ranking: ranked(1) });
   await last().answer(measured);
-  expect(asked.map(({ search }) => search.alpha)).toEqual([0.5, 0.2]);
+  expect(asked.map(({ search }) => search.ranking?.islands)).toEqual([3, 1]);
   expect(last().call.measured).toBe(measured);
   await last().answer(measured);
   expect(directions.busy).toBeNull();
-  directions.aim({ quality: "overhang" });
-  expect(last().search).toEqual({ ...DEFAULT_AIMS, alpha: 0.2, quality: "overhang" });
+  directions.aim({ most_islands: 2 });
+  expect(last().search).toEqual({ ...AIMS, ranking: ranked(1), most_islands: 2 });
   expect(last().call.measured).toBe(measured);
 });
 
@@ -156,7 +157,7 @@ test("a search is outdated when something changes that it depends on, and only t
   expect(isCurrent({ supports: { strength: "medium", points: [{ at_mm: [0, 0, 1] }], fill: true, protect: true } })).toBe(true);
   expect(isCurrent({ supports: { strength: "heavy" } })).toBe(false);
   expect(isCurrent({ supports: { profile: { contact_mm: 0.5 } } })).toBe(false);
-  directions.aim({ alpha: 1 });
+  directions.aim({ most_islands: 9 });
   expect(asked).toHaveLength(1);
   expect(isCurrent({})).toBe(true);
 });

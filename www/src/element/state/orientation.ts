@@ -1,15 +1,15 @@
 /** The orientation search: its aims, its results so far, and their validity. */
 import { isAbort } from "../../api/error.js";
 import type { Found, OrientCall, Slicer } from "../../api/index.js";
-import type { Candidate, Options, SearchOptions } from "../../api/wire.js";
+import type { Candidate, Options, SearchOptions, Terms } from "../../api/wire.js";
 import { advanced, type Busy } from "../parts/progress.js";
 import type { Rotation } from "../../view/scene/pose.js";
 import { back, turn, unit, UPRIGHT } from "../../view/scene/turn.js";
 import { rotationText, type Settings } from "./settings.js";
 
-/** Rating weights and exclusion limits for candidates. */
+/** Weights of what a print needs, of which only the ratios count, and exclusion limits for candidates. */
 export type Aims = Readonly<
-  Required<Pick<SearchOptions, "alpha" | "cost" | "quality" | "most_overhang_mm2" | "most_islands" | "most_cups_mm2">>
+  { ranking: Required<Terms> } & Required<Pick<SearchOptions, "most_overhang_mm2" | "most_islands" | "most_cups_mm2">>
 >;
 
 /** Input of a search. */
@@ -33,18 +33,13 @@ export interface OrientationHost {
   failed(error: unknown): void;
 }
 
-/** Defaults of the core, for the panel before the worker has started. A test compares them with the core. */
-export const DEFAULT_AIMS: Aims = {
-  alpha: 0.5,
-  cost: "layers",
-  quality: "error",
+/** Initial aims: what makes a print fail counts most, then what has to be taken off it, then its time. */
+export const AIMS: Aims = {
+  ranking: { islands: 3, supports: 3, contacts: 2, cups: 2, height: 1, time: 1, layers: 1, roughness: 1, overhang: 0, error: 0 },
   most_overhang_mm2: undefined,
   most_islands: undefined,
   most_cups_mm2: undefined,
 };
-
-/** Initial aims on the page: few layers and little support. */
-const AIMS: Aims = { ...DEFAULT_AIMS, quality: "supports" };
 
 export class OrientationSearch {
   aims = AIMS;

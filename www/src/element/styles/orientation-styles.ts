@@ -41,30 +41,51 @@ export const orientationStyles = css`
       display: inline;
     }
   }
-  /* In a narrow column each choice is a line, so that no name is cut. */
   .aims {
-    display: grid;
-    grid-template-columns: auto minmax(0, 1fr);
-    gap: 0.375rem 0.75rem;
-    margin-top: 0.5rem;
+    margin-top: 0.75rem;
     font-size: 0.875rem;
+  }
+  summary {
+    display: flex;
+    align-items: center;
+    min-height: 2.25rem;
+    cursor: pointer;
+    font-weight: 550;
+  }
+  summary::after {
+    content: "";
+    width: 0.4375rem;
+    height: 0.4375rem;
+    margin-inline: 0.625rem;
+    border: solid var(--cusp-quiet);
+    border-width: 0 2px 2px 0;
+    rotate: 45deg;
+    translate: 0 -0.125rem;
+  }
+  [open] > summary::after {
+    rotate: 225deg;
+    translate: 0 0.125rem;
+  }
+  .weights {
+    display: grid;
+    grid-template-columns: auto minmax(4rem, 1fr);
+    gap: 0 0.75rem;
   }
   .field {
     display: grid;
     grid-column: 1 / -1;
     grid-template-columns: subgrid;
     align-items: center;
-    gap: 0.25rem;
+    min-height: 2.25rem;
     min-width: 0;
   }
-  .field > span:first-child,
-  .balance label {
+  .field > span:first-child {
     color: var(--cusp-quiet);
   }
-  .balance {
-    grid-column: 1 / -1;
+  input[type="range"] {
+    width: 100%;
+    accent-color: var(--cusp-accent);
   }
-  /* Columns of their own: their names are long, and would leave the lists above too little. */
   .limits {
     display: grid;
     grid-column: 1 / -1;
@@ -75,7 +96,6 @@ export const orientationStyles = css`
     grid-column: 1 / -1;
     margin: 0.375rem 0 0;
   }
-  select,
   input[type="number"] {
     font: inherit;
     width: 100%;
@@ -85,46 +105,6 @@ export const orientationStyles = css`
     border-radius: 8px;
     background: var(--cusp-card);
     color: var(--cusp-text);
-  }
-  select {
-    appearance: none;
-    padding-inline-end: 2rem;
-    text-overflow: ellipsis;
-  }
-  .list {
-    position: relative;
-    display: block;
-    min-width: 0;
-  }
-  /* The chevron is made of borders: these stay in forced colours, and need no image. */
-  .list::after {
-    content: "";
-    position: absolute;
-    inset-block-start: calc(50% - 0.3125rem);
-    inset-inline-end: 0.875rem;
-    width: 0.4375rem;
-    height: 0.4375rem;
-    border: solid var(--cusp-quiet);
-    border-width: 0 2px 2px 0;
-    rotate: 45deg;
-    pointer-events: none;
-  }
-  input[type="range"] {
-    direction: ltr;
-    display: block;
-    width: 100%;
-    height: 1.75rem;
-    margin: 0.25rem 0 0;
-    accent-color: var(--cusp-accent);
-  }
-  .ends {
-    direction: ltr;
-    display: flex;
-    justify-content: space-between;
-    gap: 1rem;
-  }
-  .ends span:last-child {
-    text-align: end;
   }
   .again {
     margin-top: 1rem;
@@ -305,25 +285,19 @@ export const orientationStyles = css`
       order: -1;
     }
   }
-  @container (min-width: 24rem) {
-    .aims {
-      grid-template-columns: 1fr 1fr;
-      gap: 0.5rem 1rem;
+  @container (min-width: 36rem) {
+    .weights {
+      grid-template-columns: auto minmax(4rem, 1fr) auto minmax(4rem, 1fr);
+      column-gap: 1rem;
     }
     .field {
-      grid-column: auto;
-      grid-template-columns: minmax(0, 1fr);
-      align-content: start;
+      grid-column: span 2;
+    }
+    .limits {
+      max-width: 24rem;
     }
   }
   @container (min-width: 44rem) {
-    .aims {
-      grid-template-columns: 11rem 11rem minmax(0, 1fr);
-      gap: 0.5rem 1.5rem;
-    }
-    .balance {
-      grid-column: auto;
-    }
     .pose,
     .now {
       grid-template-columns: 7rem minmax(0, 1fr);
@@ -366,9 +340,6 @@ export const orientationStyles = css`
     .pose:focus-visible {
       outline: 3px solid CanvasText;
       outline-offset: 2px;
-    }
-    .list::after {
-      border-color: FieldText;
     }
   }
 `;
