@@ -90,3 +90,33 @@ test("print files that are damaged say where and how, in the page's language, an
   await view.getByText("Schließen").click();
   await view.waitFor({ state: "detached" });
 });
+
+test("a print file gives its printer, which is then described in a form of numbers", async () => {
+  const page = await start("?printer=mars-4-ultra");
+  const file = await sliced(page);
+  const fresh = await start("");
+  await drop(fresh, file);
+  await (await opened(fresh)).getByRole("button", { name: "Slice for this printer" }).click();
+  await expect.poll(() => new URL(fresh.url()).searchParams.get("printer")).toBe("mars-4-ultra");
+  await drop(fresh, ballFile);
+  await state(fresh, "done");
+
+  // A printer that is not in the list.
+  const list = fresh.getByRole("combobox", { name: "Printer" });
+  await list.click();
+  await list.fill("own");
+  await fresh.getByRole("option", { name: "Own printer…" }).click();
+  const form = fresh.locator("cusp-printer-form");
+  for (const [label, text] of [["Name", "Mine"], ["Pixels across", "3000"], ["Pixels deep", "2000"], ["Pixel width (µm)", "30"], ["Height (mm)", "120"]] as const) {
+    await form.getByLabel(label).fill(text);
+    await form.getByLabel(label).press("Tab");
+  }
+  const printer = (): Promise<unknown> => fresh.evaluate(() => document.querySelector("cusp-workbench")?.printer);
+  await expect.poll(printer).toMatchObject({ model: "Mine", pixels: [3000, 2000], pitch_um: [30, 30], volume_mm: [90, 60, 120] });
+  await form.getByLabel("Print file").selectOption("goo");
+  await expect.poll(printer).toMatchObject({ format: "goo" });
+  await state(fresh, "done");
+  const name = (await downloaded(fresh)).name;
+  expect(name).toBe("ball-cusp.goo");
+  expect(await broken(fresh)).toEqual([]);
+});

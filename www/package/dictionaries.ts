@@ -4,7 +4,7 @@ import { fileURLToPath } from "node:url";
 import { runnerImport, type Plugin } from "vite";
 
 /** Messages of rooms that are fetched on demand. */
-const REST = /^(after|bridges|check|errors|headings|infeasible|names|nouns|orientation|page\.notices|painting|placing|print|towers|visit|warnings)\.|^view\.(?!region|title)|^details\.(?!ran|cpu|gpu|methods)|^mask\.(?!region|said)|^plate\.(title|remove|spacing|turn|step|plate|previous|next|each|whole|all|others|moved)|^settings\.(bottom|contact|flats|least|lift|overcure|penetration|pillar|raft|retained|step|support[A-Z])/;
+const REST = /^(after|bridges|check|errors|headings|infeasible|names|nouns|orientation|own|page\.notices|painting|placing|print|towers|visit|warnings)\.|^view\.(?!region|title)|^details\.(?!ran|cpu|gpu|methods)|^mask\.(?!region|said)|^plate\.(title|remove|spacing|turn|step|plate|previous|next|each|whole|all|others|moved)|^settings\.(bottom|contact|flats|least|lift|overcure|penetration|pillar|raft|retained|step|support[A-Z])/;
 const IMPORT = /(first|rest): \(\) => import\("\.\/(\w+)\.json"\)/g;
 const PART = /^\0dictionary\/(\w+)-(first|rest)$/;
 

@@ -6,7 +6,7 @@ import { nothing, type PropertyValues, type TemplateResult } from "lit";
 import { SlicerError } from "../api/error.js";
 import type { Check, Model, Plan, PrintFile } from "../api/index.js";
 import type { Source } from "../api/source.js";
-import type { ModelOptions } from "../api/wire.js";
+import type { KnownPrinter, ModelOptions } from "../api/wire.js";
 import { fetchLanguage, languageOf } from "../texts/index.js";
 import { isFiles, isNamedAsProject } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
@@ -280,6 +280,11 @@ export abstract class SlicerElement extends SettableElement {
   /** @internal Saves the work as a project, unless the page does. */
   async saveProject(): Promise<void> {
     await saveMade(this.session.saveProject());
+  }
+
+  /** @internal Printers known by name; empty until the worker has started. */
+  knownPrinters(): readonly KnownPrinter[] {
+    return this.session.printers;
   }
 
   /** @internal Names of printers chosen before, the last first, which the list shows first. */

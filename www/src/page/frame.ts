@@ -1,6 +1,7 @@
 /** The markup of the page: header, element, and the content of its slots. */
 import { html, nothing, type TemplateResult } from "lit";
 import { live } from "lit/directives/live.js";
+import type { KnownPrinter, Printer } from "../api/wire.js";
 import { chosen } from "../element/parts/chosen.js";
 import { LANGUAGE_NAMES, LANGUAGES, type Language } from "../texts/index.js";
 import icon from "./icon.svg";
@@ -21,6 +22,10 @@ export interface PageActions {
 /** A print file shown in place of the slicer. */
 export interface PrintOnShow {
   file: File;
+  /** Printers that files may name. */
+  printers: readonly KnownPrinter[];
+  /** Chooses the printer of the file. */
+  use(printer: string | Printer): void;
   close(): void;
   /** Called if the file is not a print file. */
   unknown(): void;
@@ -59,6 +64,8 @@ export function frame(
         : html`<cusp-print
             .file=${print.file}
             .language=${language}
+            .printers=${print.printers}
+            @cusp-printer=${(event: CustomEvent<string | Printer>) => print.use(event.detail)}
             @cusp-close=${print.close}
             @cusp-unknown=${print.unknown}
             @cusp-missing=${print.missing}

@@ -5,6 +5,7 @@ import { fetchLanguage, fetchRest, languageOf } from "../texts/index.js";
 import { ADDRESS_KEYS, addressOf, settingsOf } from "./address.js";
 import { frame } from "./frame.js";
 import { idle } from "../api/calls.js";
+import type { Printer } from "../api/wire.js";
 import { fetchView } from "../element/panels/model-view.js";
 import { isNamedAsModel } from "../element/state/choice.js";
 import type { Snapshot } from "../element/state/snapshot.js";
@@ -39,7 +40,7 @@ function draw(): void {
   document.title = pageWords(language).title;
   const files = shown;
   const [file] = files ?? [];
-  const print = files === null || file === undefined ? null : { file, close, unknown: () => load(files), missing: () => unread(files) };
+  const print = files === null || file === undefined ? null : { file, printers: slicer.knownPrinters(), use, close, unknown: () => load(files), missing: () => unread(files) };
   document.body.classList.toggle("reading", print !== null);
   const actions = { example: () => void example(), speak: (locale: string) => void speak(locale), open: (files: readonly File[]) => void open(files), saveProject: () => void slicer.saveProject(), dismiss: () => say(null) };
   render(frame(language, actions, { print, notice }, visit), place);
@@ -90,6 +91,12 @@ async function reopen(snapshot: Snapshot): Promise<boolean> {
   close();
   slicer.willOrphan();
   return (await slicer.reopen(snapshot)) !== null;
+}
+
+/** Chooses the printer of a print file for what is sliced from now on. */
+function use(printer: string | Printer): void {
+  slicer.printer = printer;
+  close();
 }
 
 function close(): void {

@@ -16,8 +16,10 @@ import { languageOf, type Language } from "../texts/index.js";
 import { CuspView } from "../view/cusp-view.js";
 import { elementWith, given, own } from "../view/properties.js";
 import type { ViewTexts } from "../view/texts.js";
+import type { KnownPrinter, Printer } from "../api/wire.js";
 import { factsOf } from "./facts.js";
 import { isCoded, openPrint, type Print, type ReadError } from "./open-print.js";
+import { printerFor } from "./printer.js";
 import { failureOf, findingOf, printTexts } from "./texts.js";
 import type { PrintFileError } from "./wire.js";
 import { shown } from "../api/visible.js";
@@ -29,6 +31,8 @@ type State =
 
 const PROPERTIES = {
   file: given<File | null>(null),
+  /** Printers that files may name. */
+  printers: given<readonly KnownPrinter[]>([]),
   language: given<Language>(languageOf()),
   state: own<State>({ is: "reading", done: 0 }),
   layer: own(0),
@@ -138,6 +142,9 @@ export class CuspPrint extends elementWith(PROPERTIES) {
         margin: 0.25rem 0 0;
         padding-inline-start: 1.25rem;
       }
+      .use {
+        margin-bottom: 1rem;
+      }
       .under {
         margin-top: 0.5rem;
       }
@@ -197,7 +204,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
     const hasLayers = report.layers > 0;
     return html`<div class="cards">
       <div class="card facts">
-        ${this.#verdict(print)}
+        ${this.#verdict(print)} ${this.#printer(print)}
         <dl class="figures">
           ${factsOf(inspection, language).map(([name, text]) => html`<dt>${name}</dt><dd>${text}</dd>`)}
         </dl>
@@ -246,6 +253,14 @@ export class CuspPrint extends elementWith(PROPERTIES) {
         ${warnings.map((warning) => html`<li>${findingOf(warning, this.language)}</li>`)}
       </ul>
     </div>`;
+  }
+
+  /** Button that chooses the printer of the file for what is sliced from now on. */
+  #printer({ inspection }: Print): TemplateResult | typeof nothing {
+    const printer = printerFor(inspection, this.printers);
+    if (printer === null) return nothing;
+    const use = (): void => void this.dispatchEvent(new CustomEvent<string | Printer>("cusp-printer", { detail: printer }));
+    return html`<button class="small use" @click=${use}>${printTexts(this.language).use}</button>`;
   }
 
   /** Exposure and lit pixels of the selected layer. */

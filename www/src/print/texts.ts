@@ -13,6 +13,8 @@ const words = {
   another: "Open another file",
   reading: "Reading {name}",
   cancel: "Cancel",
+  /** Label of the button that chooses the printer of the file. */
+  use: "Slice for this printer",
   /** Shown if the file has no faults. */
   whole: "The file is whole: every layer can be read, and heights rise from the plate.",
   warnings: "{count|one:One thing to look at|other:# things to look at}",

@@ -9,6 +9,7 @@ import { languageOf } from "./index.js";
 import { ENGLISH, isFormat, PLACEHOLDER, type Dictionary } from "./messages.js";
 import "./bridges.js";
 import "./orientation.js";
+import "./own-printer.js";
 import "./painting.js";
 import "./placing.js";
 import "./problems.js";

@@ -60,7 +60,7 @@ export const settings = {
     findPrinter: "Maker or model",
     ownPrinter: "Own printer…",
     openPrinter: "Open its description",
-    ownPrinterHint: "A JSON file with at least pixels, pitch_um and volume_mm.",
+    ownPrinterHint: "By its pixels and height, or by a JSON file. The page takes it from a print file, too.",
     printerHint: "{model}: {pixels} pixels of {pitch}, up to {volume}.",
     format: "Print file",
     formatUsual: "The printer’s own",

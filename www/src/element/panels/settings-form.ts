@@ -77,7 +77,7 @@ const PROPERTIES = {
   language: given(languageOf()),
   /** Groups that were opened. */
   opened: own<ReadonlySet<Group>>(new Set()),
-  /** True while the button that opens a custom printer's description is shown. */
+  /** True while a new printer is described. */
   isOpening: own(false),
   /** Search for a printer; null while the list is closed. */
   search: own<Search | null>(null),
@@ -87,6 +87,7 @@ type Rare = typeof import("./rare-settings.js");
 type Group = "more" | "sizes";
 
 const rareCode = new FetchedPanel<Rare>("settings", () => import("./rare-settings.js"));
+const printerCode = new FetchedPanel("printer", () => import("./printer-form.js"), ({ definePrinterForm }) => definePrinterForm());
 
 export class CuspSettings extends elementWith(PROPERTIES) {
   /** Groups of hidden settings that start expanded; null before the first update. */
@@ -190,7 +191,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
         searches: (search) => (this.search = search),
         choose: (value) => this.#choosePrinter(value),
       })}
-      ${hint === "" ? nothing : html`<p class="hint" id="printer-hint">${hint}</p>`} ${isOpening ? this.#opener() : nothing} ${this.#beside("printer")}
+      ${hint === "" ? nothing : html`<p class="hint" id="printer-hint">${hint}</p>`} ${value === OPEN || value === OWN ? this.#ownPrinter(isFixed) : nothing} ${this.#beside("printer")}
     </div>`;
   }
 
@@ -210,17 +211,23 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     );
   }
 
-  /** Button that opens a printer description. */
-  #opener(): TemplateResult {
-    const open = ({ target }: Event): void => {
-      const [file] = (target as HTMLInputElement).files ?? [];
-      if (file === undefined) return;
-      this.isOpening = false;
-      this.dispatchEvent(new CustomEvent<File>("cusp-open-printer", { detail: file }));
-    };
-    return html`<label class="button small open">
-      <input class="visually-hidden" type="file" accept=".json,application/json" @change=${open} />${this.language.texts.settings.openPrinter}
-    </label>`;
+  /** Form of a printer that is not in the list. */
+  #ownPrinter(isFixed: boolean): TemplateResult | typeof nothing {
+    if (isFixed) return nothing;
+    const { language, settings: { printer } } = this;
+    if (!printerCode.isThere) return printerCode.instead(this, language);
+    return html`<cusp-printer-form
+      .printer=${this.isOpening || typeof printer === "string" ? null : printer}
+      .language=${language}
+      @cusp-printer=${({ detail }: CustomEvent<Printer>) => {
+        this.isOpening = false;
+        this.#say(withPrinter(this.settings, { name: modelOf(detail), ...detail }));
+      }}
+      @cusp-open-printer=${({ detail }: CustomEvent<File>) => {
+        this.isOpening = false;
+        this.dispatchEvent(new CustomEvent<File>("cusp-open-printer", { detail }));
+      }}
+    ></cusp-printer-form>`;
   }
 
   #resin(): TemplateResult {

@@ -5,7 +5,7 @@ import { fetchRest, type Language } from "../../texts/index.js";
 import { fetched } from "./fetched.js";
 
 /** Names of the parts. `pictures` are those of the best orientations; `reader` is our page's reader of print files. */
-export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "warnings" | "findings" | "mask" | "settings" | "details" | "saved" | "reader";
+export type Part = "view" | "paint" | "points" | "chart" | "orientation" | "pictures" | "plate" | "warnings" | "findings" | "mask" | "settings" | "printer" | "details" | "saved" | "reader";
 
 export function partError(part: Part, cause: unknown): SlicerError {
   const system = said(cause);
