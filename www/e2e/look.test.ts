@@ -218,3 +218,42 @@ test("masks are played from below, zoomed to their pixels and moved by keyboard"
   await page.keyboard.press("-");
   expect(await page.locator("cusp-mask .zoom").innerText()).toContain("8 ×");
 });
+
+test("a mask of a printer shows the model first; it says its area and exposure, colours changes, and measures between two points", async () => {
+  const page = await start("?printer=mars-4-ultra", { viewport: { width: 1280, height: 800 } });
+  await drop(page, { name: "ball.stl", bytes: sphere(10, 48).bytes });
+  await state(page, "done");
+  await openPanel(page, "Mask");
+  const panel = page.locator("cusp-mask");
+  const middle = Math.floor((await layers(page)) / 2);
+  await maskOf(page, middle);
+  expect(await panel.locator(".zoom").count()).toBe(1);
+  const fact = async (name: string): Promise<number> => Number.parseFloat(await panel.locator("dl div").filter({ hasText: name }).locator("dd").innerText());
+  expect(await fact("Lit area")).toBeCloseTo(Math.PI * 100, -1);
+  expect(await fact("Exposure")).toBeGreaterThan(0);
+
+  // Below the equator each layer adds a ring.
+  const orange = (): Promise<number> =>
+    panel.locator("canvas").evaluate((it) => {
+      const canvas = it as HTMLCanvasElement;
+      const { data } = canvas.getContext("2d")?.getImageData(0, 0, canvas.width, canvas.height) ?? { data: [] };
+      return Array.from(data).filter((value, i) => i % 4 === 0 && value === 255 && data[i + 2] === 26).length;
+    });
+  const slider = page.getByRole("slider", { name: "Layer", exact: true });
+  await slider.fill(String(Math.round(0.1 * middle)));
+  expect(await orange()).toBe(0);
+  await panel.getByRole("button", { name: "Changes from the layer below" }).click();
+  await expect.poll(orange).toBeGreaterThan(20);
+  await panel.getByText("New in this layer").waitFor();
+  await panel.getByRole("button", { name: "Changes from the layer below" }).click();
+  await expect.poll(orange).toBe(0);
+
+  await panel.getByRole("button", { name: "Measure between two points" }).click();
+  const box = (await panel.locator("canvas").boundingBox()) ?? { x: 0, y: 0, width: 0, height: 0 };
+  await page.mouse.click(box.x + 0.25 * box.width, box.y + 0.6 * box.height);
+  await page.mouse.click(box.x + 0.75 * box.width, box.y + 0.6 * box.height);
+  const length = Number.parseFloat((await panel.locator("canvas").getAttribute("data-length")) ?? "");
+  // The ball of 20 mm and some room fill the narrower side.
+  const across = (20 * 1.15 * box.width) / Math.min(box.width, box.height);
+  expect(Math.abs(length - across / 2)).toBeLessThan(0.03 * across);
+});

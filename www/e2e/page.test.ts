@@ -145,7 +145,7 @@ test("files, links and folders that will not do are refused in words, and the pa
     expect(await layers(page)).toBe(count);
   }
   await openPanel(page, "Mask");
-  await page.getByRole("button", { name: "Layer below" }).click();
+  await page.getByRole("button", { name: "Layer below", exact: true }).click();
   await alert.getByRole("button", { name: "Close" }).click();
   await state(page, "done");
   // A model is recognised whatever its name.

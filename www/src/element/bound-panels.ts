@@ -142,6 +142,10 @@ export function maskPanel({ element, session, language }: Facts, result: Result)
   if (!maskCode.isThere) return maskCode.instead(element, language);
   return html`<cusp-mask
     .mask=${session.mask}
+    .below=${session.maskBelow}
+    .hasChanges=${true}
+    .extent_mm=${session.plate.isSeveral ? null : (result.own?.size_mm ?? null)}
+    @cusp-changes=${(event: CustomEvent<boolean>) => (session.seesChanges = event.detail)}
     .marks=${session.checks.marks}
     .report=${result.report}
     .limits=${result.limits}

@@ -294,6 +294,7 @@ export class CuspPrint extends elementWith(PROPERTIES) {
         z_mm: [(layers[0]?.z_mm ?? 0) - (thickness_mm[0] ?? 0), ...layers.map((layer) => layer.z_mm)],
         thickness_mm,
         mask: { pitch_mm, pitch_y_mm },
+        exposure_s: layers.map(({ exposure_s }) => exposure_s ?? print.inspection.exposure_s ?? Number.NaN),
       };
       this.layer = Math.floor(layers.length / 2);
       this.state = { is: "open", print, report, limits: print.inspection.thickness_range_mm ?? [0, 0] };

@@ -10,6 +10,7 @@ import { ENGLISH, isFormat, PLACEHOLDER, type Dictionary } from "./messages.js";
 import "./bridges.js";
 import "./orientation.js";
 import "./own-printer.js";
+import "./masking.js";
 import "./painting.js";
 import "./placing.js";
 import "./problems.js";

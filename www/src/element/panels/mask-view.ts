@@ -4,12 +4,13 @@ import { live } from "lit/directives/live.js";
 import type { Mask } from "../../api/index.js";
 import type { Finding, Report } from "../../api/wire.js";
 import { languageOf } from "../../texts/index.js";
-import { coverage, factorFor, wholeBytes, type Rectangle } from "../parts/bitmap.js";
+import { maskingTexts } from "../../texts/masking.js";
+import { coverage, factorFor, litPixels, wholeBytes, type Rectangle } from "../parts/bitmap.js";
 import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
 import { styled } from "../parts/styled.js";
 import { maskStyles } from "../styles/mask-styles.js";
 import { shared } from "../styles/shared.js";
-import { dragged, moved, WHOLE, windowOf, zoomed, type Point } from "../parts/window.js";
+import { dragged, fitted, moved, WHOLE, windowOf, zoomed, type Point } from "../parts/window.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
 /** Minimum time between two layers during playback; the second value is for reduced motion. */
@@ -33,25 +34,44 @@ const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
 /** The fields of a report that the panel reads; a print file provides them too. */
 export interface Layered extends Pick<Report, "layers" | "z_mm" | "thickness_mm"> {
   mask: Pick<Report["mask"], "pitch_mm" | "pitch_y_mm">;
+  /** Exposure of each layer, if known. */
+  exposure_s?: readonly number[];
 }
 
 const PROPERTIES = {
   mask: given<Mask | null>(null),
+  /** Mask of the layer below, for the changes; null to show none. */
+  below: given<Mask | null>(null),
+  /** Width and depth of what is printed in the middle of the mask, mm; null: the whole mask is shown first. */
+  extent_mm: given<readonly number[] | null>(null),
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
+  /** True if the host provides {@link below}. */
+  hasChanges: given(false),
   /** The chosen finding, in its layers on each copy. */
   marks: given<readonly Pick<Finding, "bounds_mm" | "layers">[]>([]),
   language: given(languageOf()),
   place: own(WHOLE),
   playing: own(false),
+  /** True while changes from the layer below are shown. */
+  showsChanges: own(false),
+  isMeasuring: own(false),
+  /** Ends of the line that is measured, mm from the middle of the mask; the second follows the pointer at first. */
+  ruler: own<readonly Point[]>([]),
 };
 
 export class CuspMask extends elementWith(PROPERTIES) {
   #resized: ResizeObserver | null = null;
+  /** Number of lit pixels of the mask. */
+  #lit = 0;
   #timer: ReturnType<typeof setTimeout> | undefined;
   /** Pointers on the picture, by id: one drags, two zoom. */
   readonly #held = new Map<number, Point>();
+  /** True between the two presses of a measurement. */
+  #isRuling = false;
+  /** True once the picture was fitted to the model. */
+  #isFitted = false;
   readonly #calm = matchMedia("(prefers-reduced-motion: reduce)");
 
   static override styles = [shared, maskStyles];
@@ -83,11 +103,22 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const isZoomed = place.zoom > 1;
     // A two-finger zoom is not a whole number.
     const zoom = place.zoom < 10 ? format.tick(Math.round(place.zoom * 10) / 10) : format.count(place.zoom);
+    const more = maskingTexts(this.language);
+    const exposure_s = report?.exposure_s?.[layer];
+    const toggle = (name: string, icon: string, on: boolean, act: () => void): TemplateResult => html`<button
+      class="small"
+      aria-label=${name}
+      title=${name}
+      aria-pressed=${on ? "true" : "false"}
+      @click=${act}
+    >
+      <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${icon} /></svg>
+    </button>`;
     return html`
       <div class="head"><h3>${words.title}</h3></div>
       <div class="well">
         <canvas
-          class=${isZoomed ? "zoomed" : ""}
+          class=${this.isMeasuring ? "measuring" : isZoomed ? "zoomed" : ""}
           role="img"
           tabindex=${isZoomed ? 0 : -1}
           aria-label=${words.picture({ said }) + (isZoomed ? `. ${words.wellHint}` : "")}
@@ -101,11 +132,18 @@ export class CuspMask extends elementWith(PROPERTIES) {
           @pointercancel=${this.#release}
         ></canvas>
         <div class="tools">
+          ${this.extent_mm === null ? nothing : html`<button class="small" aria-label=${more.fit} title=${more.fit} @click=${this.#fit}>
+            <svg viewBox="0 0 20 20" aria-hidden="true"><path d="M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M7 7h6v6H7z" /></svg>
+          </button>`}
+          ${toggle(more.measure, "M2.5 13.5 13.5 2.5l4 4-11 11zM6 10l1.5 1.5M8.5 7.5 11 10M11 5l1.5 1.5", this.isMeasuring, this.#measure)}
+          ${this.hasChanges ? toggle(more.changes, "M3 3h9v9H3zM8 8h9v9H8z", this.showsChanges, this.#seeChanges) : nothing}
+          ${document.fullscreenEnabled ? toggle(more.full, "M3 8V3h5M12 3h5v5M17 12v5h-5M8 17H3v-5", document.fullscreenElement !== null, this.#fill) : nothing}
           ${isZoomed ? html`<span class="zoom figures">${words.zoom({ times: zoom })}</span>` : nothing}
           <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
           <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
         </div>
       </div>
+      ${this.showsChanges ? html`<p class="changes"><span><i class="grown"></i>${more.grown}</span><span><i class="gone"></i>${more.gone}</span></p>` : nothing}
       <p class="hint quiet">
         <span class=${isZoomed ? "off" : ""}>${words.hint}</span>
         <span class="hovers ${isZoomed ? "" : "off"}">${words.wellHint}</span>
@@ -146,12 +184,22 @@ export class CuspMask extends elementWith(PROPERTIES) {
             >${thickness}
           </dd>
         </div>
+        ${exposure_s === undefined || Number.isNaN(exposure_s) ? nothing : html`<div><dt>${more.exposure}</dt><dd>${format.measure(exposure_s, "s")}</dd></div>`}
+        <div><dt>${more.area}</dt><dd>${this.#area()}</dd></div>
       </dl>
     `;
   }
 
+  override willUpdate(changed: PropertyValues<this>): void {
+    if (changed.has("mask") && this.mask !== null) this.#lit = litPixels(this.mask.bits);
+  }
+
   override updated(changed: PropertyValues<this>): void {
-    if (changed.has("mask") || changed.has("place") || changed.has("marks")) this.#paint();
+    if (!this.#isFitted && this.mask !== null && this.extent_mm !== null) {
+      this.#isFitted = true;
+      this.#fit();
+    }
+    if ((["mask", "below", "place", "marks", "showsChanges", "ruler"] as const).some((name) => changed.has(name))) this.#paint();
     if (this.playing && changed.has("mask")) this.#next();
   }
 
@@ -184,13 +232,17 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const { part, scale } = windowOf(this.place, [mask.width, mask.height], [width, height], pitchOf(report));
     const whole = wholeBytes(part, mask.width, mask.height);
     const factor = factorFor(Math.max(...scale));
-    const picture = pictureOf(coverage(mask.bits, mask.width, whole, factor));
+    const { below } = this;
+    const isChanged = this.showsChanges && below !== null && below.layer === mask.layer - 1 && below.bits.length === mask.bits.length;
+    const beneath = isChanged ? coverage(below.bits, mask.width, whole, factor).values : null;
+    const picture = pictureOf(coverage(mask.bits, mask.width, whole, factor), beneath);
     if (picture !== null) {
       pen.imageSmoothingEnabled = factor * Math.max(...scale) < 1;
       const [x, y] = [(whole.x - part.x) * scale[0], (whole.y - part.y) * scale[1]];
       pen.drawImage(picture, x, y, picture.width * factor * scale[0], picture.height * factor * scale[1]);
     }
     this.#mark(pen, part, scale);
+    this.#rule(pen, part, scale);
     // The layer painted, which may lag behind the slider.
     canvas.dataset["layer"] = String(mask.layer);
   }
@@ -201,12 +253,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const marks = mask === null ? [] : this.marks.filter(({ layers: [first, last] }) => mask.layer >= first && mask.layer <= last);
     this.#canvas.toggleAttribute("data-marked", marks.length > 0);
     if (mask === null || report === null) return;
-    const { pitch_mm, pitch_y_mm } = report.mask;
-    // The model is in the middle of the mask, whose rows start at the back.
-    const at = (x_mm: number, y_mm: number): Point => [
-      (mask.width / 2 + x_mm / pitch_mm - part.x) * scale[0],
-      (mask.height / 2 - y_mm / pitch_y_mm - part.y) * scale[1],
-    ];
+    const at = (x_mm: number, y_mm: number): Point => screenOf([x_mm, y_mm], mask, report, part, scale);
     const room = MARK_ROOM_PX * devicePixelRatio;
     for (const { bounds_mm: [[left, front], [right, back]] } of marks) {
       const [[x0, y0], [x1, y1]] = [at(left, back), at(right, front)];
@@ -216,6 +263,72 @@ export class CuspMask extends elementWith(PROPERTIES) {
         pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
       }
     }
+  }
+
+  /** Draws the line that is measured, with its length. */
+  #rule(pen: CanvasRenderingContext2D, part: Rectangle, scale: readonly [number, number]): void {
+    const { mask, report, ruler: [from, to] } = this;
+    if (mask === null || report === null || from === undefined || to === undefined) return;
+    const [[x0, y0], [x1, y1]] = [screenOf(from, mask, report, part, scale), screenOf(to, mask, report, part, scale)];
+    pen.lineWidth = 2 * devicePixelRatio;
+    pen.strokeStyle = MARK_COLOUR;
+    pen.beginPath();
+    pen.moveTo(x0, y0);
+    pen.lineTo(x1, y1);
+    pen.stroke();
+    const length = this.language.format.mm(Math.round(100 * Math.hypot(to[0] - from[0], to[1] - from[1])) / 100);
+    pen.font = `600 ${13 * devicePixelRatio}px system-ui, sans-serif`;
+    pen.lineWidth = 4 * devicePixelRatio;
+    pen.strokeStyle = "#000";
+    pen.fillStyle = "#fff";
+    const [x, y] = [(x0 + x1) / 2 + 6 * devicePixelRatio, (y0 + y1) / 2 - 6 * devicePixelRatio];
+    pen.strokeText(length, x, y);
+    pen.fillText(length, x, y);
+    this.#canvas.dataset["length"] = length;
+  }
+
+  /** Area of the lit pixels, in words. */
+  #area(): string {
+    const { mask, report } = this;
+    if (mask === null || report === null) return "–";
+    const mm2 = this.#lit * report.mask.pitch_mm * report.mask.pitch_y_mm;
+    return `${this.language.format.exact(Number(mm2.toPrecision(3)))}\u00a0mm²`;
+  }
+
+  readonly #fit = (): void => {
+    const { mask, report, extent_mm } = this;
+    const { clientWidth, clientHeight } = this.#canvas;
+    const [width_mm = 0, depth_mm = 0] = extent_mm ?? [];
+    if (mask === null || report === null || clientWidth === 0 || width_mm <= 0) return;
+    const extent = [width_mm / report.mask.pitch_mm, depth_mm / report.mask.pitch_y_mm] as const;
+    this.place = fitted(extent, [mask.width, mask.height], [clientWidth, clientHeight], pitchOf(report));
+  };
+
+  readonly #measure = (): void => {
+    this.isMeasuring = !this.isMeasuring;
+    this.ruler = [];
+  };
+
+  readonly #seeChanges = (): void => {
+    this.showsChanges = !this.showsChanges;
+    this.dispatchEvent(new CustomEvent<boolean>("cusp-changes", { detail: this.showsChanges }));
+  };
+
+  readonly #fill = (): void => {
+    // A refusal leaves the picture as it is.
+    const asked = document.fullscreenElement === null ? this.requestFullscreen() : document.exitFullscreen();
+    void asked.then(() => this.requestUpdate(), () => undefined);
+  };
+
+  /** Place of a pointer, mm from the middle of the mask. */
+  #millimetres(event: PointerEvent): Point | null {
+    const { mask, report } = this;
+    if (mask === null || report === null) return null;
+    const [x, y] = this.#pointOf(event);
+    const { clientWidth, clientHeight } = this.#canvas;
+    const { part } = windowOf(this.place, [mask.width, mask.height], [clientWidth, clientHeight], pitchOf(report));
+    const { pitch_mm, pitch_y_mm } = report.mask;
+    return [(part.x + x * part.width - mask.width / 2) * pitch_mm, (mask.height / 2 - part.y - y * part.height) * pitch_y_mm];
   }
 
   #go(layer: number): void {
@@ -266,11 +379,22 @@ export class CuspMask extends elementWith(PROPERTIES) {
   };
 
   readonly #grab = (event: PointerEvent): void => {
+    if (this.isMeasuring) {
+      const at = this.#millimetres(event);
+      const [from, to] = this.ruler;
+      // The first press starts a line, the second ends it.
+      if (at !== null) this.ruler = from === undefined || (to !== undefined && !this.#isRuling) ? [at, at] : [from, at];
+      this.#isRuling = !this.#isRuling;
+      return;
+    }
     this.#held.set(event.pointerId, this.#pointOf(event));
     this.#canvas.setPointerCapture(event.pointerId);
   };
 
   readonly #pull = (event: PointerEvent): void => {
+    const [from] = this.ruler;
+    const at = this.#isRuling && from !== undefined ? this.#millimetres(event) : null;
+    if (at !== null && from !== undefined) this.ruler = [from, at];
     if (!this.#held.has(event.pointerId)) return;
     const before = this.#grip();
     this.#held.set(event.pointerId, this.#pointOf(event));
@@ -310,7 +434,19 @@ function pitchOf({ mask }: Layered): number {
   return mask.pitch_y_mm / mask.pitch_mm;
 }
 
-function pictureOf({ width, height, values }: ReturnType<typeof coverage>): HTMLCanvasElement | null {
+/** Position on the screen of a place, mm from the middle of the mask, whose rows start at the back. */
+function screenOf([x_mm, y_mm]: Point, mask: Mask, { mask: { pitch_mm, pitch_y_mm } }: Layered, part: Rectangle, scale: readonly [number, number]): Point {
+  return [(mask.width / 2 + x_mm / pitch_mm - part.x) * scale[0], (mask.height / 2 - y_mm / pitch_y_mm - part.y) * scale[1]];
+}
+
+/** Colours of pixels that are lit in one of two layers, little-endian: orange for new ones, blue for those of the layer below. */
+const GROWN = 0xff1a9fff;
+const GONE = 0xffb0602a;
+/** Smallest difference of coverage that is a change. */
+const CHANGE = 64;
+
+/** @param beneath coverage by the layer below, for the changes; null for none */
+function pictureOf({ width, height, values }: ReturnType<typeof coverage>, beneath: Uint8ClampedArray | null): HTMLCanvasElement | null {
   if (width === 0 || height === 0) return null;
   const picture = document.createElement("canvas");
   picture.width = width;
@@ -318,7 +454,11 @@ function pictureOf({ width, height, values }: ReturnType<typeof coverage>): HTML
   const image = new ImageData(width, height);
   // One word per pixel. Grey is the same in any byte order; alpha is the high byte, as browsers are little-endian.
   const words = new Uint32Array(image.data.buffer);
-  for (let i = 0; i < values.length; i++) words[i] = 0xff000000 | ((values[i] ?? 0) * 0x010101);
+  for (let i = 0; i < values.length; i++) {
+    const value = values[i] ?? 0;
+    const grown = beneath === null ? 0 : value - (beneath[i] ?? 0);
+    words[i] = grown > CHANGE ? GROWN : grown < -CHANGE ? GONE : 0xff000000 | (value * 0x010101);
+  }
   picture.getContext("2d")?.putImageData(image, 0, 0);
   return picture;
 }

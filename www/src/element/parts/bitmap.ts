@@ -36,6 +36,13 @@ const BITS = Uint8Array.from({ length: 256 }, (_, byte) => {
   return bits;
 });
 
+/** Number of lit pixels. */
+export function litPixels(bits: Uint8Array): number {
+  let lit = 0;
+  for (const byte of bits) lit += BITS[byte] ?? 0;
+  return lit;
+}
+
 /**
  * Part of a mask with blocks of `factor` × `factor` pixels merged. `factor` is 1, 2, 4 or 8, and `part.x` a multiple of 8, so that no block
  * straddles two bytes. Cost: linear in the bytes of the part.

@@ -1,7 +1,7 @@
 import { expect, test } from "vitest";
-import { coverage, factorFor, wholeBytes } from "./bitmap.js";
+import { coverage, factorFor, litPixels, wholeBytes } from "./bitmap.js";
 import type { Rectangle } from "./bitmap.js";
-import { dragged, moved, WHOLE, windowOf, zoomed } from "./window.js";
+import { dragged, fitted, moved, WHOLE, windowOf, zoomed } from "./window.js";
 import { bands, densityEnd, zoomHeights, type ChartData } from "./chart.js";
 import * as colour from "../../view/legend/palette.js";
 import { layerAt } from "../../view/scene/lookup.js";
@@ -57,6 +57,18 @@ test("the whole mask fits the screen with its true proportions", () => {
   expect(scale).toEqual([4, 8]);
   expect(part).toEqual({ x: 0, y: 0, width: 100, height: 50 });
 });
+
+test("a part in the middle is fitted with some room, in the tighter direction", () => {
+  const [mask, screen] = [[1000, 500], [200, 200]] as const;
+  const place = fitted([100, 50], mask, screen, 1);
+  expect(place.centre).toEqual([0.5, 0.5]);
+  const { part } = windowOf(place, mask, screen, 1);
+  expect(part.width).toBeCloseTo(115, 6);
+  // The whole mask is never made smaller.
+  expect(fitted([1000, 500], mask, screen, 1)).toEqual(WHOLE);
+});
+
+test("lit pixels are counted", () => expect(litPixels(Uint8Array.of(0xff, 0, 0x81))).toBe(10));
 
 test("zooming keeps the centre, and moving stops at the edges of the mask", () => {
   const twice = zoomed({ zoom: 1, centre: [0.5, 0.5] }, 2);

@@ -38,6 +38,15 @@ export function zoomed({ zoom, centre }: Place, times: number): Place {
   return next === 1 ? WHOLE : { zoom: next, centre };
 }
 
+/** Room around what is fitted, as a factor. */
+const FIT_ROOM = 1.15;
+
+/** The place that shows a part in the middle of the mask, `extent` pixels wide and high. */
+export function fitted(extent: readonly [number, number], mask: readonly [number, number], screen: readonly [number, number], pitch: number): Place {
+  const { scale } = windowOf(WHOLE, mask, screen, pitch);
+  return zoomed(WHOLE, Math.min(screen[0] / (extent[0] * scale[0]), screen[1] / (extent[1] * scale[1])) / FIT_ROOM);
+}
+
 /** A screen point, as fractions of width and height from the top left corner. */
 export type Point = readonly [number, number];
 

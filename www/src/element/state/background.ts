@@ -38,6 +38,8 @@ const QUIET_MS = 800;
 
 export class BackgroundQueries {
   mask: Mask | null = null;
+  /** Mask of the layer below, while its differences are looked at. */
+  below: Mask | null = null;
   /** Price of the last result by {@link asked}. */
   price: Price | null = null;
   readonly #looked: Looked;
@@ -47,6 +49,7 @@ export class BackgroundQueries {
   readonly #checks: Checks;
   #isFetching = false;
   #maskOf: Result | null = null;
+  #seesChanges = false;
   #asked: Asked | null = null;
   #priceOf: Result | null = null;
   /** The last result that was shown for a while, and the one that waits for it. */
@@ -142,14 +145,25 @@ export class BackgroundQueries {
   /** Fetches the mask of the selected layer; returns false if not needed. */
   async #fetchMask(result: Result): Promise<boolean> {
     const { layer } = this.#looked;
-    if (this.mask?.layer === layer && this.#maskOf === result) return false;
-    const mask = await this.#slicer.mask(layer);
-    if (this.#looked.result === result) {
+    const [isThere, isBelow] = [this.mask, this.below].map((mask, down) => mask?.layer === layer - down && this.#maskOf === result);
+    if (isThere === true && (isBelow === true || layer === 0 || !this.#seesChanges)) return false;
+    const mask = await this.#slicer.mask(isThere === true ? layer - 1 : layer);
+    if (this.#looked.result !== result) return true;
+    if (isThere === true) this.below = mask;
+    else {
+      // One layer up, the mask is the one below.
+      this.below = this.#maskOf === result ? this.mask : null;
       this.mask = mask;
       this.#maskOf = result;
-      this.#host.changed();
     }
+    this.#host.changed();
     return true;
+  }
+
+  /** True while changes from the layer below are looked at. */
+  set seesChanges(on: boolean) {
+    this.#seesChanges = on;
+    void this.fetch();
   }
 
   /** Fetches the trade-off curve; returns false if not needed. */

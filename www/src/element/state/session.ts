@@ -93,6 +93,16 @@ export class Session extends Models {
     return this.#background.mask;
   }
 
+  /** Mask of the layer below, while its differences are looked at. */
+  get maskBelow(): Mask | null {
+    return this.#background.below;
+  }
+
+  /** True while changes from the layer below are looked at. */
+  set seesChanges(on: boolean) {
+    this.#background.seesChanges = on;
+  }
+
   /** Prices of a shop, and the price of the result, or briefly of the previous one. */
   get pricing(): Pick<BackgroundQueries, "asked" | "price" | "isPriced"> {
     return this.#background;

@@ -63,6 +63,50 @@ export const maskStyles = css`
   .tools button:focus-visible {
     outline-color: #9ac4ff;
   }
+  .tools {
+    flex-wrap: wrap;
+    justify-content: end;
+    max-width: 100%;
+  }
+  .tools svg {
+    width: 1.125rem;
+    height: 1.125rem;
+    fill: none;
+    stroke: currentColor;
+    stroke-width: 1.5;
+  }
+  .tools [aria-pressed="true"],
+  .tools [aria-pressed="true"]:hover {
+    border-color: #fff;
+    background: #fff;
+    color: #000;
+  }
+  canvas.measuring {
+    cursor: crosshair;
+    touch-action: none;
+  }
+  .changes {
+    display: flex;
+    flex-wrap: wrap;
+    gap: 0.25rem 0.75rem;
+    margin-top: 0.25rem;
+    font-size: 0.8125rem;
+  }
+  .changes i {
+    display: inline-block;
+    margin-inline-end: 0.375em;
+    width: 0.75em;
+    height: 0.75em;
+    border-radius: 2px;
+    background: #ff9f1a;
+  }
+  .changes .gone {
+    background: #2a60b0;
+  }
+  :host(:fullscreen) {
+    padding: 1rem;
+    background: var(--cusp-card);
+  }
   .zoom {
     padding: 0 0.5rem;
     border-radius: 1rem;
@@ -151,6 +195,16 @@ export const maskStyles = css`
     }
   }
   @container (max-width: 19rem) {
+    .tools {
+      gap: 0.125rem;
+    }
+    .tools button {
+      min-width: 1.875rem;
+      min-height: 1.875rem;
+    }
+    .tools .zoom {
+      display: none;
+    }
     .scrub {
       gap: 0.25rem;
     }

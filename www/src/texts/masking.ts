@@ -1,0 +1,14 @@
+/** Texts of the mask's tools, fetched with its panel. */
+import { room } from "./messages.js";
+
+export const maskingTexts = room("mask", {
+  fit: "Fit to the model",
+  full: "Fill the screen",
+  changes: "Changes from the layer below",
+  /** Legend of the changes. */
+  grown: "New in this layer",
+  gone: "Only in the layer below",
+  measure: "Measure between two points",
+  exposure: "Exposure",
+  area: "Lit area",
+});
