@@ -4,6 +4,7 @@
  */
 import { html, nothing, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
+import type { Metric } from "../../api/wire.js";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
 import { chartData, chartOptions, densityEnd, zoomHeights, type ChartData, type ChartTheme, type Heights } from "../parts/chart.js";
 import { languageOf } from "../../texts/index.js";
@@ -39,8 +40,14 @@ const PAGE = 10;
 const LEVEL = 0.9;
 const SLOPING = 0.4;
 
-/** Reason for the thickness of layers, by the density of the metric of cusp heights. */
-const reasonOf = (density: number): "level" | "sloping" | "steep" => (density >= LEVEL ? "level" : density >= SLOPING ? "sloping" : "steep");
+/** Cosine of the slope of the most level surface that a density of a metric stands for; null for metrics of outlines. */
+function slopeOf(metric: Metric, density: number): number | null {
+  if (metric === "cusp" || metric === "deviation") return density;
+  return metric === "roughness" ? Math.sqrt(Math.max(0, 1 - density ** -2)) : null;
+}
+
+/** Reason for the thickness of layers. */
+const reasonOf = (slope: number): "level" | "sloping" | "steep" => (slope >= LEVEL ? "level" : slope >= SLOPING ? "sloping" : "steep");
 
 const PROPERTIES = {
   data: given<ChartData | null>(null),
@@ -189,10 +196,11 @@ export class CuspChart extends elementWith(PROPERTIES) {
   /** Density of a bin and its height, as text. */
   #at({ metric, bin_mm, z_mm, thickness_mm }: ChartData, bin: number, density: number): string {
     const { texts, format } = this.language;
-    if (metric === "cusp") {
+    const slope = slopeOf(metric, density);
+    if (slope !== null) {
       const height_mm = (bin + 0.5) * bin_mm;
       const thickness = format.fine(thickness_mm[layerAt(z_mm, height_mm)] ?? 0);
-      return texts.chart.because({ thickness, height: format.height(height_mm), reason: texts.chart.reasons[reasonOf(density)] });
+      return texts.chart.because({ thickness, height: format.height(height_mm), reason: texts.chart.reasons[reasonOf(slope)] });
     }
     const value = METRICS[metric].density(density, format);
     return texts.chart.at({ height: format.height((bin + 0.5) * bin_mm), density: texts.metrics[metric].density({ value }) });

@@ -75,8 +75,7 @@ export const maskStyles = css`
     stroke: currentColor;
     stroke-width: 1.5;
   }
-  .tools [aria-pressed="true"],
-  .tools [aria-pressed="true"]:hover {
+  .tools button[aria-pressed="true"]:not(:disabled) {
     border-color: #fff;
     background: #fff;
     color: #000;
