@@ -9,6 +9,7 @@ import { afterAll, afterEach, beforeAll, describe, expect, inject, test, vi } fr
 import { findCusp } from "../../examples/shop/cusp.js";
 import type { Candidate } from "../../src/api/wire.js";
 import type { CuspOrientation } from "../../src/element/panels/orientation-panel.js";
+import { AIMS } from "../../src/element/state/orientation.js";
 import { fetchLanguage, languageOf, LANGUAGES } from "../../src/texts/index.js";
 import { serve } from "../serve.js";
 import { cup, sphere } from "../solids.js";
@@ -234,7 +235,8 @@ export function paths(engine: Engine): void {
       const best = (): Promise<Posed[]> =>
         session.call((dom) => (dom.all("cusp-orientation")[0] as CuspOrientation | undefined)?.searched?.best.map(({ rotation, energy, metrics }) => ({ rotation, energy, metrics })) ?? []);
       await expect.poll(best, { timeout: 40_000 }).not.toEqual([]);
-      const told = execFileSync(cusp ?? "cusp", ["orient", "--quality", "supports", "--json", join(folder, mug.name)], { encoding: "utf8" });
+      const weights = Object.entries(AIMS.ranking).map(([term, weight]) => `--rank=${term}=${weight}`);
+      const told = execFileSync(cusp ?? "cusp", ["orient", ...weights, "--json", join(folder, mug.name)], { encoding: "utf8" });
       const found = await best();
       expect(found.length).toBeGreaterThan(1);
       // JSON has no negative zeros.

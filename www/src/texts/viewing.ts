@@ -39,7 +39,6 @@ export const viewingTexts = room("view", {
   mirror: "Mirror",
   duplicate: "Duplicate",
   remove: "Remove",
-  menu: "Selected model",
 });
 
 export type ViewingTexts = ReturnType<typeof viewingTexts>;
