@@ -102,6 +102,21 @@ fn every_copy_on_a_plate_is_measured_where_the_file_or_a_job_says_that_it_stands
     );
     assert_eq!(json(&cusp(&["simulate", &job, &print, "--json"])), found);
 
+    // A project is a job whose models are inside.
+    let project = path("plate.3mf");
+    assert!(
+        cusp(&["plate", &job, "-o", &project]).status.success(),
+        "{project}"
+    );
+    let of_project = path("project.zip");
+    json(&on_cpu(&["slice", &project, "-o", &of_project, "--json"]));
+    let simulated = |models: &[&str]| {
+        json(&cusp(
+            &[&["simulate"], models, &[&of_project, "--json"]].concat(),
+        ))
+    };
+    assert_eq!(simulated(&[&project]), simulated(&[&plate, &ball]));
+
     // This format does not state copies.
     let other = path("print.ctb.zip");
     let format = ["--format", "chitubox", "-o", &other, "--json"];
