@@ -10,6 +10,10 @@ use crate::crc::crc32;
 #[derive(Debug, Clone, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent choices, each of which may be made or not"
+)]
 pub struct ModelFile {
     /// Length in bytes.
     pub bytes: usize,

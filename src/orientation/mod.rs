@@ -91,7 +91,7 @@ impl SearchOptions {
             ("most_overhang_mm2", self.most_overhang_mm2),
             ("most_cups_mm2", self.most_cups_mm2),
         ];
-        let weights = self.ranking.into_iter().flat_map(|it| it.to_array());
+        let weights = self.ranking.into_iter().flat_map(Terms::to_array);
         let weights = weights.map(|weight| ("ranking", Some(weight)));
         for (limit, value) in limits.into_iter().chain(weights) {
             if let Some(value) = value.filter(|it| !(0.0..=f64::MAX).contains(it)) {

@@ -154,6 +154,10 @@ fn put<T>(place: &mut Option<T>, given: Option<T>) {
 /// Choices that a model file leaves to its reader.
 #[derive(Args)]
 #[command(next_help_heading = "Model")]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent choices, each of which may be made or not"
+)]
 pub struct ReadChoices {
     /// The plate of a 3MF project that has several, from 1 [default: 1]
     #[arg(long, value_name = "N")]

@@ -36,6 +36,10 @@ pub struct JobFile {
 /// A model of a job file.
 #[derive(Clone, Serialize, Deserialize, schemars::JsonSchema)]
 #[serde(deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent choices, each of which may be made or not"
+)]
 pub struct JobModel {
     /// The file.
     pub file: PathBuf,

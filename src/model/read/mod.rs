@@ -83,6 +83,10 @@ pub struct PlateChoice {
 #[derive(Debug, Clone, Copy, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
+#[expect(
+    clippy::struct_excessive_bools,
+    reason = "independent choices, each of which may be made or not"
+)]
 pub struct ReadOptions {
     /// Plate of a 3MF project that has several, from 1; the first if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
