@@ -45,9 +45,11 @@ const BRUSH_PART = 0.2;
 /** The view appears after the first plan, or this long after the model was read. */
 const LATEST_MS = 700;
 
-/** Fetches the view, and its tools. */
-export const fetchView = fetched(() => import("../../view/cusp-view.js"));
+const fetchCode = fetched(() => import("../../view/cusp-view.js"));
 const fetchTools = fetched(() => import("./view-tools.js"));
+
+/** Fetches the view, and then its tools. */
+export const fetchView = async (): Promise<{ view: typeof import("../../view/cusp-view.js"); tools: ViewTools }> => ({ view: await fetchCode(), tools: await fetchTools() });
 
 type ViewTools = typeof import("./view-tools.js");
 
@@ -399,8 +401,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
   async #load(): Promise<void> {
     this.isMissing = false;
     try {
-      const { CuspView, CuspWallLegend } = await fetchView();
-      const [tools] = await Promise.all([fetchTools(), fetchRest()]);
+      const { view: { CuspView, CuspWallLegend }, tools } = await fetchView();
+      await fetchRest();
       await this.#turn;
       define("cusp-view", CuspView);
       define("cusp-wall-legend", CuspWallLegend);
