@@ -217,94 +217,55 @@ pub struct Metrics {
     pub contact_mm2: f64,
 }
 
-/// Terms of energies, less of each being better: their weights, or their largest values of all directions, in the units of
-/// [`Metrics`].
-#[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
-#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
-#[cfg_attr(target_arch = "wasm32", derive(Tsify))]
-#[serde(default, deny_unknown_fields)]
-pub struct Terms {
-    /// The number of layers.
-    pub layers: f64,
-    /// The print time.
-    pub time: f64,
-    /// The largest error of a layer.
-    pub error: f64,
-    /// The mean roughness of the surface.
-    pub roughness: f64,
-    /// The area that would need support.
-    pub overhang: f64,
-    /// The number of islands.
-    pub islands: f64,
-    /// The area of cups.
-    pub cups: f64,
-    /// The volume of supports.
-    pub supports: f64,
-    /// The area in which supports touch the model, weighted.
-    pub contacts: f64,
-    /// The height of the model, in mm.
-    pub height: f64,
+/// Declares the terms once: as fields, and as an array in the same order.
+macro_rules! terms {
+    ($($(#[$doc:meta])* $name:ident,)*) => {
+        /// Terms of energies, less of each being better: their weights, or their largest values of all directions, in the units of
+        /// [`Metrics`].
+        #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
+        #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
+        #[cfg_attr(target_arch = "wasm32", derive(Tsify))]
+        #[serde(default, deny_unknown_fields)]
+        pub struct Terms {
+            $($(#[$doc])* pub $name: f64,)*
+        }
+
+        impl Terms {
+            /// Names of the terms, in the order of [`Self::to_array`].
+            pub const NAMES: [&str; 10] = [$(stringify!($name),)*];
+
+            /// The terms in the order of [`Self::NAMES`].
+            pub fn to_array(self) -> [f64; 10] {
+                [$(self.$name,)*]
+            }
+
+            /// The terms from that order.
+            pub fn from_array([$($name,)*]: [f64; 10]) -> Self {
+                Self { $($name,)* }
+            }
+        }
+    };
 }
 
-impl Terms {
-    /// Names of the terms, in the order of [`Self::to_array`].
-    pub const NAMES: [&str; 10] = [
-        "layers",
-        "time",
-        "error",
-        "roughness",
-        "overhang",
-        "islands",
-        "cups",
-        "supports",
-        "contacts",
-        "height",
-    ];
-
-    /// The terms in the order of [`Self::NAMES`].
-    pub fn to_array(self) -> [f64; 10] {
-        let Self {
-            layers,
-            time,
-            error,
-            roughness,
-            overhang,
-            islands,
-            cups,
-            supports,
-            contacts,
-            height,
-        } = self;
-        [
-            layers, time, error, roughness, overhang, islands, cups, supports, contacts, height,
-        ]
-    }
-
-    /// The terms from that order.
-    pub fn from_array(terms: [f64; 10]) -> Self {
-        let [
-            layers,
-            time,
-            error,
-            roughness,
-            overhang,
-            islands,
-            cups,
-            supports,
-            contacts,
-            height,
-        ] = terms;
-        Self {
-            layers,
-            time,
-            error,
-            roughness,
-            overhang,
-            islands,
-            cups,
-            supports,
-            contacts,
-            height,
-        }
-    }
+terms! {
+    /// The number of layers.
+    layers,
+    /// The print time.
+    time,
+    /// The largest error of a layer.
+    error,
+    /// The mean roughness of the surface.
+    roughness,
+    /// The area that would need support.
+    overhang,
+    /// The number of islands.
+    islands,
+    /// The area of cups.
+    cups,
+    /// The volume of supports.
+    supports,
+    /// The area in which supports touch the model, weighted.
+    contacts,
+    /// The height of the model, in mm.
+    height,
 }

@@ -143,7 +143,6 @@ export function maskPanel({ element, session, language }: Facts, result: Result)
   return html`<cusp-mask
     .mask=${session.mask}
     .below=${session.maskBelow}
-    .hasChanges=${true}
     .extent_mm=${session.plate.isSeveral ? null : (result.own?.size_mm ?? null)}
     @cusp-changes=${(event: CustomEvent<boolean>) => (session.seesChanges = event.detail)}
     .marks=${session.checks.marks}

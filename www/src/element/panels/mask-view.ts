@@ -7,6 +7,7 @@ import { languageOf } from "../../texts/index.js";
 import { maskingTexts } from "../../texts/masking.js";
 import { coverage, factorFor, litPixels, wholeBytes, type Rectangle } from "../parts/bitmap.js";
 import { css as cssColour, ofThickness } from "../../view/legend/palette.js";
+import { drawnButton } from "../parts/icon-button.js";
 import { styled } from "../parts/styled.js";
 import { maskStyles } from "../styles/mask-styles.js";
 import { shared } from "../styles/shared.js";
@@ -24,6 +25,14 @@ const STEP = 0.125;
 const MARK_COLOUR = "#ff9f1a";
 const MARK_ROOM_PX = 4;
 
+/** SVG paths in a square of 20 units. */
+const ICONS = {
+  fit: "M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M7 7h6v6H7z",
+  measure: "M2.5 13.5 13.5 2.5l4 4-11 11zM6 10l1.5 1.5M8.5 7.5 11 10M11 5l1.5 1.5",
+  changes: "M3 3h9v9H3zM8 8h9v9H8z",
+  full: "M3 8V3h5M12 3h5v5M17 12v5h-5M8 17H3v-5",
+} as const;
+
 const ARROWS: Readonly<Record<string, readonly [number, number]>> = {
   ArrowLeft: [-STEP, 0],
   ArrowRight: [STEP, 0],
@@ -40,15 +49,13 @@ export interface Layered extends Pick<Report, "layers" | "z_mm" | "thickness_mm"
 
 const PROPERTIES = {
   mask: given<Mask | null>(null),
-  /** Mask of the layer below, for the changes; null to show none. */
-  below: given<Mask | null>(null),
+  /** Mask of the layer below, for the changes; null until known, undefined if the host knows none. */
+  below: given<Mask | null | undefined>(undefined),
   /** Width and depth of what is printed in the middle of the mask, mm; null: the whole mask is shown first. */
   extent_mm: given<readonly number[] | null>(null),
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
-  /** True if the host provides {@link below}. */
-  hasChanges: given(false),
   /** The chosen finding, in its layers on each copy. */
   marks: given<readonly Pick<Finding, "bounds_mm" | "layers">[]>([]),
   language: given(languageOf()),
@@ -88,6 +95,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
   }
 
   override firstUpdated(): void {
+    this.addEventListener("fullscreenchange", () => this.requestUpdate());
     this.#watch();
   }
 
@@ -105,15 +113,6 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const zoom = place.zoom < 10 ? format.tick(Math.round(place.zoom * 10) / 10) : format.count(place.zoom);
     const more = maskingTexts(this.language);
     const exposure_s = report?.exposure_s?.[layer];
-    const toggle = (name: string, icon: string, on: boolean, act: () => void): TemplateResult => html`<button
-      class="small"
-      aria-label=${name}
-      title=${name}
-      aria-pressed=${on ? "true" : "false"}
-      @click=${act}
-    >
-      <svg viewBox="0 0 20 20" aria-hidden="true"><path d=${icon} /></svg>
-    </button>`;
     return html`
       <div class="head"><h3>${words.title}</h3></div>
       <div class="well">
@@ -132,12 +131,10 @@ export class CuspMask extends elementWith(PROPERTIES) {
           @pointercancel=${this.#release}
         ></canvas>
         <div class="tools">
-          ${this.extent_mm === null ? nothing : html`<button class="small" aria-label=${more.fit} title=${more.fit} @click=${this.#fit}>
-            <svg viewBox="0 0 20 20" aria-hidden="true"><path d="M3 7V3h4M13 3h4v4M17 13v4h-4M7 17H3v-4M7 7h6v6H7z" /></svg>
-          </button>`}
-          ${toggle(more.measure, "M2.5 13.5 13.5 2.5l4 4-11 11zM6 10l1.5 1.5M8.5 7.5 11 10M11 5l1.5 1.5", this.isMeasuring, this.#measure)}
-          ${this.hasChanges ? toggle(more.changes, "M3 3h9v9H3zM8 8h9v9H8z", this.showsChanges, this.#seeChanges) : nothing}
-          ${document.fullscreenEnabled ? toggle(more.full, "M3 8V3h5M12 3h5v5M17 12v5h-5M8 17H3v-5", document.fullscreenElement !== null, this.#fill) : nothing}
+          ${this.extent_mm === null ? nothing : drawnButton(ICONS.fit, more.fit, this.#fit)}
+          ${drawnButton(ICONS.measure, more.measure, this.#measure, true, this.isMeasuring)}
+          ${this.below === undefined ? nothing : drawnButton(ICONS.changes, more.changes, this.#seeChanges, true, this.showsChanges)}
+          ${document.fullscreenEnabled ? drawnButton(ICONS.full, more.full, this.#fill, true, document.fullscreenElement !== null) : nothing}
           ${isZoomed ? html`<span class="zoom figures">${words.zoom({ times: zoom })}</span>` : nothing}
           <button class="small" aria-label=${words.zoomOut} ?disabled=${!isZoomed} @click=${() => this.#zoom(0.5)}>−</button>
           <button class="small" aria-label=${words.zoomIn} @click=${() => this.#zoom(2)}>+</button>
@@ -233,7 +230,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
     const whole = wholeBytes(part, mask.width, mask.height);
     const factor = factorFor(Math.max(...scale));
     const { below } = this;
-    const isChanged = this.showsChanges && below !== null && below.layer === mask.layer - 1 && below.bits.length === mask.bits.length;
+    const isChanged = this.showsChanges && below?.layer === mask.layer - 1 && below.bits.length === mask.bits.length;
     const beneath = isChanged ? coverage(below.bits, mask.width, whole, factor).values : null;
     const picture = pictureOf(coverage(mask.bits, mask.width, whole, factor), beneath);
     if (picture !== null) {
@@ -315,9 +312,8 @@ export class CuspMask extends elementWith(PROPERTIES) {
   };
 
   readonly #fill = (): void => {
-    // A refusal leaves the picture as it is.
-    const asked = document.fullscreenElement === null ? this.requestFullscreen() : document.exitFullscreen();
-    void asked.then(() => this.requestUpdate(), () => undefined);
+    // If the browser refuses, nothing changes.
+    (document.fullscreenElement === null ? this.requestFullscreen() : document.exitFullscreen()).catch(() => undefined);
   };
 
   /** Place of a pointer, mm from the middle of the mask. */

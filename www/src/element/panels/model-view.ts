@@ -134,8 +134,7 @@ const PROPERTIES = {
   factor: own(1),
   /** The size asked for, until the plan has it. */
   sized: own<Scaled | null>(null),
-  /** Where the menu was requested; null while it is closed. */
-  menu: own<MenuDetail | null>(null),
+  isMenuOpen: own(false),
 };
 
 export class CuspModel extends elementWith(PROPERTIES) {
@@ -304,9 +303,9 @@ export class CuspModel extends elementWith(PROPERTIES) {
 
   /** The menu of the selected model, opened by the secondary button. */
   #menu({ placementMenu, steppedInMenu }: ViewTools): TemplateResult {
-    const placement = this.menu === null ? null : this.#placement;
+    const placement = this.isMenuOpen ? this.#placement : null;
     const toggled = ({ newState }: ToggleEvent): void => {
-      if (newState === "closed") this.menu = null;
+      if (newState === "closed") this.isMenuOpen = false;
     };
     return html`<div class="menu" popover role="menu" aria-label=${this.language.texts.view.title} @keydown=${steppedInMenu} @toggle=${toggled}>
       ${placement === null ? nothing : placementMenu(this.#offered, placement, () => this.#menuElement?.hidePopover())}
@@ -317,11 +316,10 @@ export class CuspModel extends elementWith(PROPERTIES) {
     return this.renderRoot.querySelector(".menu");
   }
 
-  readonly #openMenu = async ({ detail }: CustomEvent<MenuDetail>): Promise<void> => {
-    const { at: [x, y], place } = detail;
+  readonly #openMenu = async ({ detail: { at: [x, y], place } }: CustomEvent<MenuDetail>): Promise<void> => {
     if (this.positions === null || this.#isEditing) return;
     if (place !== null && !this.#chosen.includes(place)) this.#press({ place, isMore: false });
-    this.menu = detail;
+    this.isMenuOpen = true;
     await this.updateComplete;
     const menu = this.#menuElement;
     const view = this.renderRoot.querySelector("cusp-view")?.getBoundingClientRect();

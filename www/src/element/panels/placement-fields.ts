@@ -8,6 +8,7 @@ import type { Tool } from "../../view/scene/keys.js";
 import { extentOf, sizeOf, type Rotation, type Triple } from "../../view/scene/pose.js";
 import { typed } from "../parts/typed.js";
 import { read, type FieldUnit } from "../state/typed.js";
+import { textField } from "../styles/text-field.js";
 
 /** Order of turns: about x, then y, then z of the plate. */
 const ORDER = "ZYX";
@@ -167,10 +168,11 @@ export const placementStyles = css`
     color: var(--cusp-quiet);
   }
   .fields input {
+    ${textField}
     width: 3.5rem;
     min-height: 2rem;
     padding: 0.125rem 0.3125rem;
-    font-variant-numeric: tabular-nums;
+    color: var(--cusp-text);
   }
   .fields button {
     min-height: 2rem;

@@ -32,6 +32,7 @@ import { parse, type Settings } from "../state/settings.js";
 import { usualSize } from "../state/support-sizes.js";
 import { localised, read } from "../state/typed.js";
 import { lineIcon } from "../styles/shared.js";
+import { textField } from "../styles/text-field.js";
 
 /** The part of a session that the tools read and change. */
 export type Edited = Pick<
@@ -324,15 +325,8 @@ export const pointStyles = css`
     min-height: 2.5rem;
   }
   .points .length input {
-    font: inherit;
-    font-variant-numeric: tabular-nums;
+    ${textField}
     width: 4rem;
-    min-height: 2.25rem;
-    padding: 0.25rem 0.5rem;
-    border: 1px solid var(--cusp-field);
-    border-radius: 8px;
-    background: var(--cusp-card);
-    color: inherit;
   }
   .points .box input {
     flex: none;

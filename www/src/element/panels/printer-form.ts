@@ -10,6 +10,7 @@ import { typed } from "../parts/typed.js";
 import { isPrinter } from "../state/printer.js";
 import { read } from "../state/typed.js";
 import { shared } from "../styles/shared.js";
+import { textField } from "../styles/text-field.js";
 
 /** Numbers of a description, by the fields of the form. */
 interface Numbers {
@@ -85,16 +86,10 @@ export class CuspPrinterForm extends elementWith(PROPERTIES) {
       }
       input[type="text"],
       select {
-        font: inherit;
+        ${textField}
         font-weight: 400;
         width: 100%;
         min-width: 0;
-        min-height: 2.25rem;
-        padding: 0.25rem 0.5rem;
-        border: 1px solid var(--cusp-field);
-        border-radius: 8px;
-        background: var(--cusp-card);
-        color: inherit;
       }
       .button {
         justify-self: start;

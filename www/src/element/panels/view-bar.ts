@@ -89,12 +89,12 @@ export function viewBar(bar: ViewBar): TemplateResult {
           ${TOOLS.filter((tool) => ALWAYS.has(tool) || bar.offered.has(tool)).map(mode)}
         </fieldset>
         ${bar.isTurned
-          ? html`<button class="small upright" title=${words.upright} @click=${bar.upright}>
+          ? html`<button class="small action" title=${words.upright} @click=${bar.upright}>
               ${icon("upright")}<span class="name">${words.upright}</span>
             </button>`
           : nothing}
         <details class="display" @focusout=${left} @keydown=${closed}>
-          <summary class="upright">${icon("display")}<span class="name">${words.switches}</span></summary>
+          <summary class="action">${icon("display")}<span class="name">${words.switches}</span></summary>
           <div class="switches">
             ${bar.isBeside ? toggle("aligned", bar.isAligned) : nothing} ${toggle("cut", bar.isCut)}
             ${toggle("printed", bar.isPrinted)} ${toggle("measured", bar.isMeasured)}
@@ -149,7 +149,7 @@ export const barStyles = css`
     border-radius: 8px;
   }
   .mode,
-  .upright {
+  .action {
     position: relative;
     isolation: isolate;
     display: flex;
@@ -171,15 +171,15 @@ export const barStyles = css`
     border-radius: 8px;
     display: var(--cusp-view-switches, block);
   }
-  summary.upright {
+  summary.action {
     border: 1px solid var(--cusp-field);
     border-radius: 8px;
     list-style: none;
   }
-  summary.upright::-webkit-details-marker {
+  summary.action::-webkit-details-marker {
     display: none;
   }
-  summary.upright:hover {
+  summary.action:hover {
     background: var(--cusp-note-wash);
   }
   .switches {
@@ -298,7 +298,7 @@ export const barStyles = css`
   /* Names where all of them fit in one line; elsewhere they are at the pointer. */
   @container (max-width: 29.99rem) {
     .mode .name,
-    .upright .name {
+    .action .name {
       position: absolute;
       width: 1px;
       height: 1px;
@@ -307,7 +307,7 @@ export const barStyles = css`
       white-space: nowrap;
     }
     .mode,
-    .upright {
+    .action {
       min-width: 2.25rem;
       min-height: 2.25rem;
     }

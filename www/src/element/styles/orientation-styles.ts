@@ -1,4 +1,5 @@
 import { css } from "lit";
+import { textField } from "./text-field.js";
 
 export const orientationStyles = css`
   :host {
@@ -97,14 +98,8 @@ export const orientationStyles = css`
     margin: 0.375rem 0 0;
   }
   input[type="number"] {
-    font: inherit;
+    ${textField}
     width: 100%;
-    min-height: 2.25rem;
-    padding: 0.25rem 0.625rem;
-    border: 1px solid var(--cusp-field);
-    border-radius: 8px;
-    background: var(--cusp-card);
-    color: var(--cusp-text);
   }
   .again {
     margin-top: 1rem;
