@@ -2,7 +2,8 @@
 //!
 //! A pixel is supported if the layer below has a supported pixel within the width that the least self-supporting slope
 //! spans in this layer. All of the first layer is supported. So is an island, as whatever will support it does so
-//! there. An overhang is where unsupported pixels are farther than a limit from all supported pixels of their layer.
+//! there. An overhang is where unsupported pixels are farther than a limit from all supported pixels of their layer, along
+//! lit pixels and never through air.
 //! Unsupported pixels that bridge the way from one supported pixel to another are supported by both, and those near the
 //! contact of a support by it.
 
@@ -16,6 +17,7 @@ use super::limits::Limits;
 use super::regions::Regions;
 use super::rows::{Disc, Rest, Rows, Span};
 use super::surfaces::Surfaces;
+use crate::grid::Grid;
 
 /// Width that the least self-supporting slope spans in a layer, in pixels.
 pub(super) fn width(layer: usize, frame: &Frame<'_>, limits: &Limits) -> Disc {
@@ -60,9 +62,53 @@ fn spans_of(here: &Components, row: i32, touches: &[bool], spans: &mut Vec<Span>
     spans.extend(of_row.filter(|it| touches[it.1 as usize]).map(|it| it.0));
 }
 
+/// Reach of supported pixels, straight and along lit pixels.
+struct Reach {
+    straight: Disc,
+    /// Steps in turn, beside a pixel and around it: together they go as far as straight ones, and at most 1.12 times as far.
+    steps: [Disc; 2],
+    /// Number of steps.
+    count: usize,
+}
+
+impl Reach {
+    fn new(reach_mm: f64, grid: &Grid) -> Self {
+        let [least_mm, most_mm] = [f64::min, f64::max].map(|of| of(grid.pitch_mm, grid.pitch_y_mm));
+        Self {
+            straight: Disc::new(reach_mm, grid),
+            steps: [1.0, 1.5].map(|pixels| Disc::new(pixels * most_mm, grid)),
+            count: (reach_mm / least_mm).ceil() as usize,
+        }
+    }
+
+    /// The unsupported pixels of a layer that are out of reach of its other pixels.
+    ///
+    /// Cost: linear in the spans of the layer for each step that reaches a pixel within the straight reach.
+    fn beyond(&self, unsupported: &Rows, lit: &Rows, rest: &mut Rest) -> Rows {
+        let supported = lit.without(unsupported);
+        let far = rest.beyond_all(unsupported, &supported, 0, &self.straight);
+        let near = unsupported.without(&far);
+        let mut left = near.clone();
+        let mut reached = supported;
+        for step in 0..self.count {
+            let disc = &self.steps[step % 2];
+            let next = rest.beyond_all(&left, &reached, 0, disc);
+            if next.is_blank() {
+                return far;
+            }
+            if next == left {
+                break;
+            }
+            left = next;
+            reached = lit.without(&left).without(&far);
+        }
+        unsupported.without(&near.without(&left))
+    }
+}
+
 /// The overhangs of the layers so far.
 pub(super) struct Overhangs {
-    reach: Disc,
+    reach: Reach,
     bridges: Bridges,
     /// The unsupported pixels of the last layer, if there are any.
     unsupported: Option<Rows>,
@@ -77,7 +123,7 @@ impl Overhangs {
     pub fn new(frame: &Frame<'_>, limits: &Limits, held: &Held) -> Self {
         Self {
             surfaces: Surfaces::new(held, frame),
-            reach: Disc::new(limits.overhang_mm, frame.grid),
+            reach: Reach::new(limits.overhang_mm, frame.grid),
             bridges: Bridges::new(limits.bridge_mm, frame.grid),
             unsupported: None,
             supported: Rows::default(),
@@ -98,15 +144,13 @@ impl Overhangs {
             .take_from(&mut unsupported, lit, layer.number, frame);
         if !unsupported.is_blank() {
             self.supported = lit.without(&unsupported);
-            found = self
-                .rest
-                .beyond_all(&unsupported, &self.supported, 0, &self.reach);
+            found = self.reach.beyond(&unsupported, lit, &mut self.rest);
             let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
             if rest != found {
                 let held = found.without(&rest);
                 unsupported = unsupported.without(&held);
                 self.supported = lit.without(&unsupported);
-                found = self.rest.beyond_all(&rest, &held, 0, &self.reach);
+                found = self.reach.beyond(&unsupported, lit, &mut self.rest);
             }
             self.unsupported = Some(unsupported);
         }

@@ -207,6 +207,29 @@ fn a_rim_within_walls_is_a_bridge_if_they_are_near() {
 }
 
 #[test]
+fn a_wall_holds_nothing_across_a_gap() {
+    // A bar of 19 mm beside a wall, which it joins at one end alone or all along.
+    let bar = |gap_mm: f32| {
+        joined([
+            block([0.0, 0.0, 0.0], [2.0, 20.0, 8.0]),
+            block([1.0, 0.0, 0.0], [3.0, 1.0, 8.0]),
+            block([2.0 + gap_mm, 0.5, 5.0], [2.9, 20.0, 6.0]),
+        ])
+    };
+    assert_codes(&check(&bar(0.0), &strict()), &[]);
+    for gap_mm in [0.4, 0.2] {
+        let found = check(&bar(gap_mm), &strict());
+        let [overhang] = of_code(&found, Code::Overhang)[..] else {
+            panic!("{:#?}", found.findings);
+        };
+        // All but a millimetre beside the end, and up to an eighth more.
+        let width_mm = f64::from(0.9 - gap_mm);
+        let area_mm2 = overhang.area_mm2 / width_mm;
+        assert!((17.8..18.1).contains(&area_mm2), "{gap_mm}: {area_mm2}");
+    }
+}
+
+#[test]
 fn a_table_hangs_over_on_all_sides_as_one() {
     let leg = block([4.0, 4.0, 0.0], [6.0, 6.0, 3.0]);
     let table = joined([leg, slab(3.0, 4.0)]);

@@ -258,6 +258,24 @@ impl Voxels {
         (0..pixels.len()).map(is_beyond).collect()
     }
 
+    /// The unsupported pixels of a layer out of reach of its supported ones, straight or along lit pixels.
+    fn out_of_reach(&self, unsupported: &Plane, supported: &Plane, reach_mm: f64) -> Plane {
+        let far = self.beyond(unsupported, supported, reach_mm);
+        let near = |left: &Plane| {
+            let is_reached =
+                |at: usize| supported[at] || (unsupported[at] && !far[at] && !left[at]);
+            (0..left.len()).map(is_reached).collect::<Plane>()
+        };
+        let mut left = unsupported.clone();
+        let steps = (reach_mm / self.grid.pitch_mm.min(self.grid.pitch_y_mm)).ceil() as usize;
+        for step in 0..steps {
+            let reached = near(&left);
+            // A step leads to a pixel beside, and the next to one around.
+            left = self.beyond(&left, &reached, [1.0, 1.5][step % 2] * self.pitch_mm());
+        }
+        (0..far.len()).map(|at| far[at] || left[at]).collect()
+    }
+
     /// Regions of these pixels.
     fn regions(&self, code: Code, planes: &[Plane], least_px: u32, least_mm: f64) -> Vec<Found> {
         let mut found = Vec::new();
@@ -305,14 +323,16 @@ impl Voxels {
             supported = (0..lit.len())
                 .map(|at| lit[at] && !unsupported[at])
                 .collect();
-            let found = self.beyond(&unsupported, &supported, limits.overhang_mm);
+            let found = self.out_of_reach(&unsupported, &supported, limits.overhang_mm);
             let bridge = |at| self.is_bridged(at, &unsupported, &supported, limits.bridge_mm);
             let held: Plane = (0..lit.len()).map(|at| found[at] && bridge(at)).collect();
             for at in 0..lit.len() {
                 supported[at] |= held[at];
             }
-            let rest: Plane = (0..lit.len()).map(|at| found[at] && !held[at]).collect();
-            planes.push(self.beyond(&rest, &held, limits.overhang_mm));
+            let rest: Plane = (0..lit.len())
+                .map(|at| unsupported[at] && !held[at])
+                .collect();
+            planes.push(self.out_of_reach(&rest, &supported, limits.overhang_mm));
         }
         self.regions(Code::Overhang, &planes, limits.speck_px, 0.0)
     }
