@@ -16,7 +16,7 @@ use super::layer::Layer;
 use super::limits::Limits;
 use super::regions::Regions;
 use super::rows::{Disc, Rest, Rows, Span};
-use super::surfaces::Surfaces;
+use super::surfaces::{CELL_MM, Surfaces};
 use crate::grid::Grid;
 
 /// Width that the least self-supporting slope spans in a layer, in pixels.
@@ -65,44 +65,53 @@ fn spans_of(here: &Components, row: i32, touches: &[bool], spans: &mut Vec<Span>
 /// Reach of supported pixels, straight and along lit pixels.
 struct Reach {
     straight: Disc,
-    /// Steps in turn, beside a pixel and around it: together they go as far as straight ones, and at most 1.12 times as far.
-    steps: [Disc; 2],
-    /// Number of steps.
+    /// A step along lit pixels. Gaps narrower than a step count as closed: resin closes them as well.
+    step: Disc,
+    /// Number of steps, and of those that surely stay within the straight reach.
     count: usize,
+    sure: usize,
 }
+
+/// Ratio of a step's longest way to its shortest: what steps of pixels in rows and columns lack in other directions.
+const LONGER: f64 = 1.12;
 
 impl Reach {
     fn new(reach_mm: f64, grid: &Grid) -> Self {
-        let [least_mm, most_mm] = [f64::min, f64::max].map(|of| of(grid.pitch_mm, grid.pitch_y_mm));
+        let step_mm = CELL_MM.max(2.0 * grid.pitch_mm.max(grid.pitch_y_mm));
         Self {
             straight: Disc::new(reach_mm, grid),
-            steps: [1.0, 1.5].map(|pixels| Disc::new(pixels * most_mm, grid)),
-            count: (reach_mm / least_mm).ceil() as usize,
+            step: Disc::new(LONGER * step_mm, grid),
+            count: (reach_mm / step_mm).ceil() as usize,
+            sure: (reach_mm / (LONGER * step_mm)) as usize,
         }
     }
 
-    /// The unsupported pixels of a layer that are out of reach of its other pixels.
+    /// The unsupported pixels of a layer that are out of reach of the supported ones.
     ///
-    /// Cost: linear in the spans of the layer for each step that reaches a pixel within the straight reach.
-    fn beyond(&self, unsupported: &Rows, lit: &Rows, rest: &mut Rest) -> Rows {
-        let supported = lit.without(unsupported);
-        let far = rest.beyond_all(unsupported, &supported, 0, &self.straight);
-        let near = unsupported.without(&far);
-        let mut left = near.clone();
-        let mut reached = supported;
-        for step in 0..self.count {
-            let disc = &self.steps[step % 2];
-            let next = rest.beyond_all(&left, &reached, 0, disc);
-            if next.is_blank() {
-                return far;
+    /// Cost: for each step linear in the spans of the rows with pixels that are still to be reached.
+    fn beyond(&self, unsupported: &Rows, supported: &Rows, lit: &Rows, rest: &mut Rest) -> Rows {
+        let mut left = rest.beyond_all(unsupported, supported, 0, &self.step);
+        // Pixels that steps reach may be farther than the straight reach only after this.
+        let mut doubtful = (self.sure == 0).then(|| unsupported.clone());
+        for step in 1..self.count {
+            if step == self.sure {
+                doubtful = Some(left.clone());
             }
+            let Some([first, last]) = left.bounds() else {
+                break;
+            };
+            let around = first - self.step.rows()..last + self.step.rows() + 1;
+            let reached = lit.without_at(&left, 0, around);
+            let next = rest.beyond_all(&left, &reached, 0, &self.step);
             if next == left {
                 break;
             }
             left = next;
-            reached = lit.without(&left).without(&far);
         }
-        unsupported.without(&near.without(&left))
+        match doubtful {
+            Some(doubtful) => left.with(&rest.beyond_all(&doubtful, supported, 0, &self.straight)),
+            None => left,
+        }
     }
 }
 
@@ -144,17 +153,24 @@ impl Overhangs {
             .take_from(&mut unsupported, lit, layer.number, frame);
         if !unsupported.is_blank() {
             self.supported = lit.without(&unsupported);
-            found = self.reach.beyond(&unsupported, lit, &mut self.rest);
+            found = self.found_in(&unsupported, lit);
             let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
             if rest != found {
                 let held = found.without(&rest);
                 unsupported = unsupported.without(&held);
                 self.supported = lit.without(&unsupported);
-                found = self.reach.beyond(&unsupported, lit, &mut self.rest);
+                found = self.found_in(&unsupported, lit);
             }
             self.unsupported = Some(unsupported);
         }
         self.regions.advance(layer.number, found, frame, collector);
+    }
+
+    /// The unsupported pixels of a layer that are an overhang, but for bridges.
+    fn found_in(&mut self, unsupported: &Rows, lit: &Rows) -> Rows {
+        let supported = &self.supported;
+        self.reach
+            .beyond(unsupported, supported, lit, &mut self.rest)
     }
 
     /// The unsupported pixels of a layer above one that has some: only rows near those can have more than `flat` has.

@@ -8,7 +8,7 @@ use crate::argsort::sort_by_number;
 use crate::ways::{self, AROUND, KNIGHTS};
 
 /// Least side of a cell. Gaps narrower than a cell count as closed: resin closes them as well.
-const CELL_MM: f64 = 0.1;
+pub(super) const CELL_MM: f64 = 0.1;
 
 /// Largest ratio of a way along steps to a straight one, by which the reach is longer.
 const LONGER: f64 = 1.028;

@@ -262,16 +262,14 @@ impl Voxels {
     fn out_of_reach(&self, unsupported: &Plane, supported: &Plane, reach_mm: f64) -> Plane {
         let far = self.beyond(unsupported, supported, reach_mm);
         let near = |left: &Plane| {
-            let is_reached =
-                |at: usize| supported[at] || (unsupported[at] && !far[at] && !left[at]);
+            let is_reached = |at: usize| supported[at] || (unsupported[at] && !left[at]);
             (0..left.len()).map(is_reached).collect::<Plane>()
         };
         let mut left = unsupported.clone();
-        let steps = (reach_mm / self.grid.pitch_mm.min(self.grid.pitch_y_mm)).ceil() as usize;
-        for step in 0..steps {
+        let step_mm = f64::max(0.1, 2.0 * self.pitch_mm());
+        for _ in 0..(reach_mm / step_mm).ceil() as usize {
             let reached = near(&left);
-            // A step leads to a pixel beside, and the next to one around.
-            left = self.beyond(&left, &reached, [1.0, 1.5][step % 2] * self.pitch_mm());
+            left = self.beyond(&left, &reached, 1.12 * step_mm);
         }
         (0..far.len()).map(|at| far[at] || left[at]).collect()
     }
