@@ -30,6 +30,7 @@ fn densities(triangles: &solids::Triangles, weight: Option<f32>, source: Source)
         .unwrap();
     let options = Options {
         planner: Planner::Uniform { layer_mm: 0.1 },
+        source,
         ..options()
     };
     pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();

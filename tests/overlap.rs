@@ -37,13 +37,19 @@ fn options(metric: Metric) -> Options {
     }
 }
 
-/// The report, and the densities from both sources.
+/// The report of the exact source, and the densities from both.
 fn planned(triangles: &solids::Triangles, options: &Options) -> (Report, [Vec<f32>; 2]) {
     let mut slicer = load(triangles);
-    let report = pollster::block_on(slicer.plan(options, &mut quiet)).cloned();
-    let densities = [Source::Exact, Source::Sampled]
-        .map(|source| slicer.profile(options.metric, source).unwrap().density);
-    (report.unwrap(), densities)
+    let [exact, sampled] = [Source::Exact, Source::Sampled].map(|source| {
+        let options = Options {
+            source,
+            ..options.clone()
+        };
+        let report = pollster::block_on(slicer.plan(&options, &mut quiet)).cloned();
+        let density = slicer.profile(options.metric, source).unwrap().density;
+        (report.unwrap(), density)
+    });
+    (exact.0, [exact.1, sampled.1])
 }
 
 #[test]

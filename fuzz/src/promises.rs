@@ -223,7 +223,7 @@ fn check_errors(slicer: &Slicer, report: &Report, plan: &Plan, options: &Options
     }
     let kept = match options.source {
         Source::Exact => report.max_error,
-        Source::Sampled => report.sampled_error,
+        Source::Sampled => report.sampled_error.unwrap(),
     };
     let most = report.tolerance * (1.0 + ROOM) + ROOM;
     assert!(kept <= most, "{kept} of {}", report.tolerance);

@@ -143,7 +143,8 @@ impl Job {
     /// The profile of a metric on a plate: in each bin the largest of its models.
     ///
     /// # Errors
-    /// [`Error::NoPlan`], also for a metric of areas if no plan has measured them; [`Error::Arrange`].
+    /// [`Error::NoPlan`], also for a metric of areas or for the sampled source if no plan has measured them;
+    /// [`Error::Arrange`].
     pub fn profile(&self, plate: usize, metric: Metric, source: Source) -> Result<Profile, Error> {
         let planned = &self.plate(plate)?.planned;
         let mut largest = Profile {
@@ -152,7 +153,8 @@ impl Job {
         };
         for model in &planned.models {
             let shapes = &model.measured.shapes;
-            if metric.needs_areas() && !shapes.has_areas() {
+            let has_source = source == Source::Exact || shapes.sampled.is_some();
+            if !has_source || metric.needs_areas() && !shapes.has_areas() {
                 return Err(Error::NoPlan);
             }
             let density = shapes.profile(metric, source).density;

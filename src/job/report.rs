@@ -459,8 +459,8 @@ pub struct Report {
     pub max_error: f64,
     /// The same without weights and without the cap of the area deviation.
     pub true_error: f64,
-    /// The largest error of a layer under the sampled profile, in the metric's unit.
-    pub sampled_error: f64,
+    /// The largest error of a layer under the sampled profile, in the metric's unit; null for a plan that was not made from it.
+    pub sampled_error: Option<f64>,
     /// The largest cusp height of a layer under the exact profile, whatever the metric.
     pub max_error_mm: f64,
     /// The largest distance from the print to the model, whatever the metric: see `deviation`.

@@ -33,8 +33,9 @@ impl Solid {
 pub(super) struct Heights {
     /// Each range as bits, the lower end in the upper half.
     keys: Vec<u64>,
-    /// The bits of both ends of the range that grew last: most rays pass through the same solid as the ray before.
-    last: Option<(u32, u32)>,
+    /// The bits of both ends of the ranges that grew last, at most [`Self::RECENT`]: most rays pass through the same parts of the solid
+    /// as the ray before.
+    recent: Vec<(u32, u32)>,
     /// Number of keys at which they are merged.
     limit: usize,
 }
@@ -43,24 +44,27 @@ impl Heights {
     /// The lowest limit: few keys to sort, and enough to make sorting worthwhile.
     const LIMIT: usize = 1 << 10;
 
+    const RECENT: usize = 4;
+
     #[inline]
     pub fn add(&mut self, z_in: f32, z_out: f32) {
         let (z_in, z_out) = (z_in.to_bits(), z_out.to_bits());
-        match &mut self.last {
-            Some((from, to)) if z_in <= *to && *from <= z_out => {
+        for (from, to) in &mut self.recent {
+            if z_in <= *to && *from <= z_out {
                 *from = z_in.min(*from);
                 *to = z_out.max(*to);
-            }
-            last => {
-                let before = last.replace((z_in, z_out));
-                self.keep(before);
+                return;
             }
         }
+        if self.recent.len() == Self::RECENT {
+            let first = self.recent.remove(0);
+            self.keep(first);
+        }
+        self.recent.push((z_in, z_out));
     }
 
-    fn keep(&mut self, range: Option<(u32, u32)>) {
-        let key = |(from, to): (u32, u32)| u64::from(from) << 32 | u64::from(to);
-        self.keys.extend(range.map(key));
+    fn keep(&mut self, (from, to): (u32, u32)) {
+        self.keys.push(u64::from(from) << 32 | u64::from(to));
         if self.keys.len() >= self.limit.max(Self::LIMIT) {
             self.merge();
             self.limit = 2 * self.keys.len();
@@ -83,8 +87,9 @@ impl Heights {
 
     /// The ranges in ascending order. No two touch.
     pub fn into_ranges(mut self) -> Vec<(f32, f32)> {
-        let last = self.last.take();
-        self.keep(last);
+        for range in std::mem::take(&mut self.recent) {
+            self.keep(range);
+        }
         self.merge();
         let ends = |key: u64| {
             (

@@ -136,17 +136,21 @@ fn is_one_solid(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
 
 /// Marks the facets that a ray meets, and those that separate inside from outside.
 fn look_along(hits: &[Hit], model_end: u32, seen: &[AtomicU8]) {
-    each_of_model(hits, model_end, |hit, is_inside| {
-        let note = if is_inside {
-            MET | INSIDE
-        } else {
-            MET | ON_SURFACE
-        };
+    let note = |hit: &Hit, note: u8| {
         let seen = &seen[hit.facet() as usize];
         // Neighbouring rays meet the same facets: most notes are already made.
         if seen.load(Relaxed) & note != note {
             seen.fetch_or(note, Relaxed);
         }
+    };
+    // Most rays meet no overlap.
+    if is_in_turn(hits, |hit| hit.facet() < model_end) {
+        let of_model = hits.iter().filter(|hit| hit.facet() < model_end);
+        return of_model.for_each(|hit| note(hit, MET | ON_SURFACE));
+    }
+    each_of_model(hits, model_end, |hit, is_inside| {
+        let of = if is_inside { INSIDE } else { ON_SURFACE };
+        note(hit, MET | of);
     });
 }
 

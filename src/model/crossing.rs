@@ -15,7 +15,7 @@ pub fn crossed(mesh: &Mesh, facets: &[u32]) -> Vec<bool> {
     if facets.is_empty() {
         return Vec::new();
     }
-    let cells = Cells::new(mesh);
+    let cells = Cells::around(mesh, facets);
     let mut seen = Vec::new();
     facets
         .iter()
@@ -34,7 +34,7 @@ pub fn pairs(mesh: &Mesh, facets: &[u32], counts: impl Fn(u32) -> bool) -> Vec<[
     if facets.is_empty() {
         return Vec::new();
     }
-    let cells = Cells::new(mesh);
+    let cells = Cells::around(mesh, facets);
     let (mut seen, mut pairs) = (Vec::new(), Vec::new());
     for &facet in facets {
         cells.near(mesh, facet, &mut seen);
@@ -49,15 +49,16 @@ pub fn pairs(mesh: &Mesh, facets: &[u32], counts: impl Fn(u32) -> bool) -> Vec<[
     pairs
 }
 
-/// Facets by the cells that their boxes meet.
+/// Facets by the cells that their boxes meet, where some facets are.
 struct Cells {
     size_mm: f64,
+    /// The cells of these facets.
     listed: FxHashMap<IVec3, Vec<u32>>,
     large: Vec<u32>,
 }
 
 impl Cells {
-    fn new(mesh: &Mesh) -> Self {
+    fn around(mesh: &Mesh, facets: &[u32]) -> Self {
         let end = mesh.classes.model_end();
         let extents = (0..end).map(|facet| {
             let [low, high] = bounds(&mesh.corners(facet as usize));
@@ -70,11 +71,26 @@ impl Cells {
             listed: FxHashMap::default(),
             large: Vec::new(),
         };
+        let mut around = [DVec3::INFINITY, DVec3::NEG_INFINITY];
+        for &facet in facets {
+            let corners = mesh.corners(facet as usize);
+            let [low, high] = bounds(&corners);
+            around = [around[0].min(low), around[1].max(high)];
+            let places = cells.of(&corners).into_iter().flatten();
+            cells.listed.extend(places.map(|place| (place, Vec::new())));
+        }
         for facet in 0..end {
-            match cells.of(&mesh.corners(facet as usize)) {
+            let corners = mesh.corners(facet as usize);
+            let [low, high] = bounds(&corners);
+            if low.cmpgt(around[1]).any() || around[0].cmpgt(high).any() {
+                continue;
+            }
+            match cells.of(&corners) {
                 Some(places) => {
                     for place in places {
-                        cells.listed.entry(place).or_default().push(facet);
+                        if let Some(listed) = cells.listed.get_mut(&place) {
+                            listed.push(facet);
+                        }
                     }
                 }
                 None => cells.large.push(facet),

@@ -19,6 +19,9 @@ const RINGS: usize = 6;
 /// Halvings of the distance between a fan and the cap.
 const HALVINGS: usize = 24;
 
+/// Factor by which a product that has shrunk as far is enlarged.
+const LARGE: f64 = 1e100;
+
 /// A hole whose cap is curved.
 pub(super) struct Bent {
     border: Vec<DVec3>,
@@ -126,22 +129,31 @@ impl Bent {
         let to_middle = self.middle - eye;
         let middle_length = to_middle.length();
         let (mut re, mut im, mut turns) = (1.0_f64, 0.0_f64, 0);
-        for (a, b) in edges(&self.border) {
-            let (a, b) = (a - eye, b - eye);
-            let (a_length, b_length) = (a.length(), b.length());
+        let Some(last) = self.border.last() else {
+            return false;
+        };
+        let mut a = *last - eye;
+        let mut a_length = a.length();
+        for b in &self.border {
+            let b = *b - eye;
+            let b_length = b.length();
             let volume = a.dot(b.cross(to_middle));
             let rest = a_length * b_length * middle_length
                 + a.dot(b) * middle_length
                 + b.dot(to_middle) * a_length
                 + to_middle.dot(a) * b_length;
-            let (before, size) = (im, (rest * rest + volume * volume).sqrt());
+            (a, a_length) = (b, b_length);
+            // Signs alone count, so the product may shrink, but not vanish.
+            let size = rest.abs() + volume.abs();
             if size <= 0.0 {
                 continue;
             }
-            (re, im) = (
-                (re * rest - im * volume) / size,
-                (re * volume + im * rest) / size,
-            );
+            let before = im;
+            let (rest, volume) = (rest / size, volume / size);
+            (re, im) = (re * rest - im * volume, re * volume + im * rest);
+            if re.abs() + im.abs() < 1.0 / LARGE {
+                (re, im) = (re * LARGE, im * LARGE);
+            }
             if re < 0.0 && (before < 0.0) != (im < 0.0) {
                 turns += if im < 0.0 { 1 } else { -1 };
             }

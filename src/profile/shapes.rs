@@ -16,7 +16,8 @@ use crate::progress::{Cancelled, Progress};
 #[derive(Debug, Clone)]
 pub(crate) struct Shapes {
     pub exact: Shape,
-    pub sampled: Shape,
+    /// The shape as rays see it, if it was measured.
+    pub sampled: Option<Shape>,
     /// Horizontal facets that are not hidden.
     pub flats: Vec<Flat>,
     /// The normal cones of the surface, those of hidden facets included; empty if no metric needs them.
@@ -34,11 +35,11 @@ struct Weighing {
     metric: Metric,
     weights: Vec<f32>,
     exact: Weighted,
-    sampled: Weighted,
+    sampled: Option<Weighted>,
 }
 
 impl Shapes {
-    /// The shape of a sampled mesh, without areas of sections and without weights.
+    /// The shape of a sampled mesh by its facets, without areas of sections and without weights.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -60,13 +61,11 @@ impl Shapes {
         let is_seen = |facet: u32| hidden.is_seen(facet as usize);
         let pairs = crossing::pairs(mesh, &partly_inside, is_seen);
         let creases = creases(mesh, bins, &pairs);
-        let mut second = |fraction| progress(0.5 + 0.25 * fraction);
+        let mut second = |fraction| progress(0.5 + 0.5 * fraction);
         let spans = creases.spans;
         let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, image, &mut second)?;
         let value = |facet| facet_bins.n_z_squared[facet];
         let exact = steepest::exact_maxima(facet_bins, &hidden, value);
-        let mut third = |fraction| progress(0.75 + 0.25 * fraction);
-        let sampled = steepest::sampled_maxima(facet_bins, image, &hidden, value, &mut third)?;
         let mut cones = cones(mesh, bins);
         if !hidden.is_by_facets() {
             let seen = |cone: &Cone| {
@@ -84,13 +83,7 @@ impl Shapes {
                 steepest: exact,
                 areas_mm2: Vec::new(),
             },
-            // Rays meet facets, not the edges between them.
-            sampled: Shape {
-                bins,
-                cones: sampled.clone(),
-                steepest: sampled,
-                areas_mm2: Vec::new(),
-            },
+            sampled: None,
             cones,
             flats: facet_bins.flats_but(hidden.facets()),
             hidden,
@@ -99,19 +92,42 @@ impl Shapes {
         })
     }
 
+    /// The same with the shape as rays see it, without areas of sections and without weights.
+    ///
+    /// # Errors
+    /// [`Cancelled`].
+    pub fn with_rays(
+        self,
+        facet_bins: &FacetBins,
+        image: RayImage<'_>,
+        progress: &mut Progress<'_>,
+    ) -> Result<Self, Cancelled> {
+        let value = |facet| facet_bins.n_z_squared[facet];
+        let steepest = steepest::sampled_maxima(facet_bins, image, &self.hidden, value, progress)?;
+        Ok(Self {
+            sampled: Some(Shape {
+                bins: facet_bins.bins,
+                // Rays meet facets, not the edges between them.
+                cones: steepest.clone(),
+                steepest,
+                areas_mm2: Vec::new(),
+            }),
+            ..self
+        })
+    }
+
     /// The shape from facets alone, without rays. It serves as both sources, and no facet counts as hidden. `areas_mm2`
     /// and `cones` may be empty if the metric does not need them.
     pub fn of_facets(facet_bins: &FacetBins, areas_mm2: Vec<f64>, cones: Vec<Cone>) -> Self {
         let steepest = steepest::exact(facet_bins, &[]);
-        let exact = Shape {
-            bins: facet_bins.bins,
-            cones: normal_cones::maxima(&steepest, &cones, |_| true),
-            steepest,
-            areas_mm2,
-        };
         Self {
-            sampled: exact.clone(),
-            exact,
+            exact: Shape {
+                bins: facet_bins.bins,
+                cones: normal_cones::maxima(&steepest, &cones, |_| true),
+                steepest,
+                areas_mm2,
+            },
+            sampled: None,
             cones,
             flats: facet_bins.flats.clone(),
             hidden: Hidden::default(),
@@ -125,9 +141,12 @@ impl Shapes {
         self.exact.bins
     }
 
-    /// Returns true if the areas of sections have been measured.
+    /// Returns true if the areas of sections have been measured, from all sources.
     pub fn has_areas(&self) -> bool {
-        !self.sampled.areas_mm2.is_empty()
+        let mut shapes = [Some(&self.exact), self.sampled.as_ref()]
+            .into_iter()
+            .flatten();
+        shapes.all(|shape| !shape.areas_mm2.is_empty())
     }
 
     /// Returns true if the shape has exactly these weights of facets for this metric; with `None`, if it has no
@@ -136,7 +155,9 @@ impl Shapes {
         match (&self.weighing, weights) {
             (None, None) => true,
             (Some(weighing), Some(weights)) => {
-                weighing.metric == metric && weighing.weights == weights
+                weighing.metric == metric
+                    && weighing.weights == weights
+                    && weighing.sampled.is_some() == self.sampled.is_some()
             }
             _ => false,
         }
@@ -154,16 +175,13 @@ impl Shapes {
         weights: Option<Vec<f32>>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
-        let exact = self.weighed_by_facets(facet_bins, metric, weights);
-        let hidden = &exact.hidden;
-        let weighing = exact.weighing.as_ref().map(|weighing| {
-            let weights = &weighing.weights;
-            Weighted::sampled(facet_bins, image, hidden, metric, weights, progress)
-        });
-        let sampled = weighing.transpose()?;
-        let mut shapes = exact;
-        if let (Some(weighing), Some(sampled)) = (&mut shapes.weighing, sampled) {
-            weighing.sampled = sampled;
+        let mut shapes = self.weighed_by_facets(facet_bins, metric, weights);
+        if let Some(weighing) = &mut shapes.weighing
+            && shapes.sampled.is_some()
+        {
+            let (hidden, weights) = (&shapes.hidden, &weighing.weights);
+            let sampled = Weighted::sampled(facet_bins, image, hidden, metric, weights, progress)?;
+            weighing.sampled = Some(sampled);
         }
         Ok(shapes)
     }
@@ -175,14 +193,11 @@ impl Shapes {
         metric: Metric,
         weights: Option<Vec<f32>>,
     ) -> Self {
-        let weighing = weights.map(|weights| {
-            let exact = Weighted::exact(facet_bins, &self.cones, &self.hidden, metric, &weights);
-            Weighing {
-                metric,
-                weights,
-                sampled: exact.clone(),
-                exact,
-            }
+        let weighing = weights.map(|weights| Weighing {
+            exact: Weighted::exact(facet_bins, &self.cones, &self.hidden, metric, &weights),
+            metric,
+            weights,
+            sampled: None,
         });
         Self { weighing, ..self }
     }
@@ -208,13 +223,16 @@ impl Shapes {
     fn weighted(&self, metric: Metric, source: Source) -> Option<&Weighted> {
         let weighing = self.weighing.as_ref();
         let weighing = weighing.filter(|weighing| weighing.metric == metric)?;
-        Some(match source {
-            Source::Exact => &weighing.exact,
-            Source::Sampled => &weighing.sampled,
-        })
+        Some(of_source(
+            source,
+            &weighing.exact,
+            weighing.sampled.as_ref(),
+        ))
     }
 
     /// The shape with the areas of its sections.
+    ///
+    /// Cost: a pass over the rays if they are needed: for the shape as rays see it, or where only rays resolve overlaps.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -225,19 +243,30 @@ impl Shapes {
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         let bins = self.bins();
-        self.sampled.areas_mm2 = section::sampled(image, bins, progress)?;
-        self.exact.areas_mm2 = if self.overlaps {
-            self.sampled.areas_mm2.clone()
-        } else {
-            section::exact(mesh, self.hidden.facets(), bins)
-        };
+        if !self.overlaps {
+            self.exact.areas_mm2 = section::exact(mesh, self.hidden.facets(), bins);
+        }
+        if self.overlaps || self.sampled.is_some() {
+            let areas_mm2 = section::sampled(image, bins, progress)?;
+            if self.overlaps {
+                self.exact.areas_mm2.clone_from(&areas_mm2);
+            }
+            if let Some(sampled) = &mut self.sampled {
+                sampled.areas_mm2 = areas_mm2;
+            }
+        }
         Ok(self)
     }
 
+    /// The shape from a source: that of facets if rays were not asked.
     pub fn of(&self, source: Source) -> &Shape {
-        match source {
-            Source::Exact => &self.exact,
-            Source::Sampled => &self.sampled,
-        }
+        of_source(source, &self.exact, self.sampled.as_ref())
+    }
+}
+
+fn of_source<'a, T>(source: Source, exact: &'a T, sampled: Option<&'a T>) -> &'a T {
+    match source {
+        Source::Exact => exact,
+        Source::Sampled => sampled.unwrap_or(exact),
     }
 }

@@ -16,7 +16,6 @@ fn plan_prints_one_json_object_with_every_key() {
         "thickness_mm",
         "tolerance",
         "max_error",
-        "sampled_error",
         "max_error_mm",
         "unit",
         "metric",

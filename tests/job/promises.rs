@@ -105,7 +105,7 @@ fn the_tolerance_holds_on_every_solid_under_every_metric() {
                 );
                 if metric == Metric::Cusp {
                     assert_eq!(report.max_error, report.max_error_mm);
-                    assert!(report.sampled_error <= report.max_error * room, "{name}");
+                    assert_eq!(report.sampled_error, None, "{name}");
                 }
                 assert!(
                     report.layers <= report.uniform.finest.layers,
@@ -140,7 +140,7 @@ fn a_sampled_plan_that_fails_on_the_mesh_says_so() {
         ..options()
     };
     let report = plan(&mut slicer, &sampled).unwrap();
-    assert!(report.sampled_error <= 0.02 + 1e-9);
+    assert!(report.sampled_error.unwrap() <= 0.02 + 1e-9);
     assert!(report.max_error > 0.02);
     assert!(
         report

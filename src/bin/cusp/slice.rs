@@ -363,11 +363,14 @@ fn describe_resin(report: &Report) -> String {
         error if error == report.max_error => String::new(),
         error => format!(" ({} without weights and caps)", words(error)),
     };
+    let seen = report.sampled_error.map_or_else(String::new, |error| {
+        format!(", {} as sampled", words(error))
+    });
     format!(
         "layers    {} of {thinnest:.3} to {thickest:.3} mm, {:.3} mm in total\n\
          time      {}, {:.1} ml of resin\n\
          uniform   {}\n\
-         error     {} on the mesh{unweighted}, {} as sampled, tolerance {}\n\
+         error     {} on the mesh{unweighted}{seen}, tolerance {}\n\
          deviation {} from the model at most\n\
          planes    {} at flats and sharp changes\n\
          masks     {} × {} pixels of {:.4} mm\n\
@@ -378,7 +381,6 @@ fn describe_resin(report: &Report) -> String {
         report.resin_ml,
         describe_uniform(report),
         words(report.max_error),
-        words(report.sampled_error),
         words(report.tolerance),
         Metric::Deviation.format(report.max_deviation_mm),
         report.snapped_mm.len(),

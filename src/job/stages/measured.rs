@@ -9,6 +9,7 @@ use crate::grid::Bins;
 use crate::job::Error;
 use crate::ldi::LdiError;
 use crate::model::Mesh;
+use crate::profile::Source;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::shapes::Shapes;
 use crate::progress::Progress;
@@ -40,28 +41,36 @@ impl Measured {
         let is_of_these =
             |kept: &Arc<Self>| Arc::ptr_eq(&kept.of, of) && kept.shapes.bins() == bins;
         let kept = kept.filter(is_of_these);
+        let has_rays =
+            |shapes: &Shapes| shapes.sampled.is_some() || layering.source == Source::Exact;
         let has_areas = |shapes: &Shapes| shapes.has_areas() || !metric.needs_areas();
         if let Some(kept) = &kept
+            && has_rays(&kept.shapes)
             && has_areas(&kept.shapes)
             && kept.shapes.is_weighed(metric, weights.as_deref())
         {
             return Ok(Arc::clone(kept));
         }
         let facet_bins = LazyCell::new(|| FacetBins::of(mesh, bins));
-        // There are up to three passes over the rays.
-        let mut pass = |number: f64, fraction: f64| progress((number + fraction) / 3.0);
+        // There are up to four passes over the rays.
+        let mut pass = |number: f64, fraction: f64| progress((number + fraction) / 4.0);
         let mut first = |fraction| pass(0.0, fraction);
         let mut shapes = match kept {
             Some(kept) => kept.shapes.clone(),
             None => Shapes::new(&facet_bins, mesh, image, &of.survey, &mut first)
                 .map_err(LdiError::from)?,
         };
+        if !has_rays(&shapes) {
+            let mut second = |fraction| pass(1.0, fraction);
+            let with_rays = shapes.with_rays(&facet_bins, image, &mut second);
+            shapes = with_rays.map_err(LdiError::from)?;
+        }
         if !has_areas(&shapes) {
-            let with_areas = shapes.with_areas(mesh, image, &mut |fraction| pass(1.0, fraction));
+            let with_areas = shapes.with_areas(mesh, image, &mut |fraction| pass(2.0, fraction));
             shapes = with_areas.map_err(LdiError::from)?;
         }
         if !shapes.is_weighed(metric, weights.as_deref()) {
-            let mut last = |fraction| pass(2.0, fraction);
+            let mut last = |fraction| pass(3.0, fraction);
             let weighed = shapes.weighed(&facet_bins, image, metric, weights, &mut last);
             shapes = weighed.map_err(LdiError::from)?;
         }

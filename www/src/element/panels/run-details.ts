@@ -20,7 +20,8 @@ export function runDetails(report: Result["report"], { texts: { details: words }
   };
   return html`<dl class="facts">
     ${STAGES.map((stage) => (timings_ms[stage] > 0 ? fact(words[stage], format.duration(timings_ms[stage])) : nothing))}
-    ${fact(words.meshError, error(report.max_error))} ${fact(words.rayError, error(report.sampled_error))}
+    ${fact(words.meshError, error(report.max_error))}
+    ${report.sampled_error === null ? nothing : fact(words.rayError, error(report.sampled_error))}
     ${report.true_error === report.max_error ? nothing : fact(words.trueError, error(report.true_error))}
     ${metric === "cusp" ? nothing : fact(words.cuspError, format.fine(report.max_error_mm))}
     ${metric === "deviation" ? nothing : fact(words.deviation, format.error("deviation", report.max_deviation_mm))}

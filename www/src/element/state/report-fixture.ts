@@ -38,7 +38,7 @@ export function report(patch: Partial<Report>): Report {
     source: "exact",
     tolerance: 0.065,
     max_error: 0.065,
-    sampled_error: 0.065,
+    sampled_error: null,
     true_error: 0.065,
     max_error_mm: 0.065,
     max_deviation_mm: 0.0364,
