@@ -108,10 +108,11 @@ impl Reach {
             }
             left = next;
         }
-        match doubtful {
-            Some(doubtful) => left.with(&rest.beyond_all(&doubtful, supported, 0, &self.straight)),
-            None => left,
-        }
+        let Some(doubtful) = doubtful else {
+            return left;
+        };
+        let far = rest.beyond_all(&doubtful, supported, 0, &self.straight);
+        unsupported.without(&unsupported.without(&left).without(&far))
     }
 }
 

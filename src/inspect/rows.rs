@@ -197,17 +197,6 @@ impl Rows {
         dark
     }
 
-    /// The pixels of these rows and of the others.
-    pub fn with(&self, others: &Self) -> Self {
-        let (mut all, mut of_row) = (Self::default(), Vec::new());
-        for row in 0..self.len() {
-            of_row.clear();
-            unite(self.row(row), others.row(row), &mut of_row);
-            all.push_row(&of_row);
-        }
-        all
-    }
-
     /// The pixels of these rows that are not in the others.
     pub fn without(&self, others: &Self) -> Self {
         self.without_at(others, 0, 0..self.len())

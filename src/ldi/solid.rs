@@ -56,11 +56,16 @@ impl Heights {
                 return;
             }
         }
+        self.add_apart((z_in, z_out));
+    }
+
+    #[cold]
+    fn add_apart(&mut self, range: (u32, u32)) {
         if self.recent.len() == Self::RECENT {
             let first = self.recent.remove(0);
             self.keep(first);
         }
-        self.recent.push((z_in, z_out));
+        self.recent.push(range);
     }
 
     fn keep(&mut self, (from, to): (u32, u32)) {

@@ -77,8 +77,7 @@ impl Sums {
                 self.heights.add(z_in, z_out);
             });
             // Once is enough.
-            self.overlaps =
-                self.overlaps || !is_in_turn(hits, |hit| is_alone || hit.facet() < model_end);
+            self.overlaps = self.overlaps || !is_in_turn(hits, model_end);
             if has_caps && hits.iter().any(is_cap) {
                 self.through_holes += 1;
             }

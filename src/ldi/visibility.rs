@@ -109,13 +109,14 @@ fn seen_along(
     Ok(seen.into_iter().map(AtomicU8::into_inner).collect())
 }
 
-/// Returns true if those hits of a ray for which `counts` holds enter and leave one body after another, and no body touches the
-/// next.
+/// Returns true if those hits of a ray whose facets are below `model_end` enter and leave one body after another, and no body touches
+/// the next.
 #[inline]
-pub(super) fn is_in_turn(hits: &[Hit], counts: impl Fn(&Hit) -> bool) -> bool {
+pub(super) fn is_in_turn(hits: &[Hit], model_end: u32) -> bool {
     let mut winding = 0;
     let mut last_z_mm = -1.0;
-    hits.iter().filter(|hit| counts(hit)).all(|hit| {
+    let mut of_model = hits.iter().filter(|hit| hit.facet() < model_end);
+    of_model.all(|hit| {
         winding += hit.winding();
         let rises = hit.z_mm > last_z_mm;
         last_z_mm = hit.z_mm;
@@ -144,7 +145,7 @@ fn look_along(hits: &[Hit], model_end: u32, seen: &[AtomicU8]) {
         }
     };
     // Most rays meet no overlap.
-    if is_in_turn(hits, |hit| hit.facet() < model_end) {
+    if is_in_turn(hits, model_end) {
         let of_model = hits.iter().filter(|hit| hit.facet() < model_end);
         return of_model.for_each(|hit| note(hit, MET | ON_SURFACE));
     }

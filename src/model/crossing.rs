@@ -76,8 +76,10 @@ impl Cells {
             let corners = mesh.corners(facet as usize);
             let [low, high] = bounds(&corners);
             around = [around[0].min(low), around[1].max(high)];
-            let places = cells.of(&corners).into_iter().flatten();
-            cells.listed.extend(places.map(|place| (place, Vec::new())));
+            let listed = &mut cells.listed;
+            each_cell(size_mm, &corners, &mut |place| {
+                listed.entry(place).or_default();
+            });
         }
         for facet in 0..end {
             let corners = mesh.corners(facet as usize);
@@ -85,44 +87,47 @@ impl Cells {
             if low.cmpgt(around[1]).any() || around[0].cmpgt(high).any() {
                 continue;
             }
-            match cells.of(&corners) {
-                Some(places) => {
-                    for place in places {
-                        if let Some(listed) = cells.listed.get_mut(&place) {
-                            listed.push(facet);
-                        }
-                    }
+            let listed = &mut cells.listed;
+            let is_small = each_cell(size_mm, &corners, &mut |place| {
+                if let Some(listed) = listed.get_mut(&place) {
+                    listed.push(facet);
                 }
-                None => cells.large.push(facet),
+            });
+            if !is_small {
+                cells.large.push(facet);
             }
         }
         cells
     }
 
-    /// The cells that the box of a facet meets; `None` if they are too many.
-    #[inline]
-    fn of(&self, corners: &[DVec3; 3]) -> Option<impl Iterator<Item = IVec3> + use<>> {
-        let [low, high] = bounds(corners).map(|it| (it / self.size_mm).floor().as_ivec3());
-        ((high - low).max_element() < MOST_CELLS).then(|| {
-            (low.x..=high.x).flat_map(move |x| {
-                (low.y..=high.y)
-                    .flat_map(move |y| (low.z..=high.z).map(move |z| IVec3::new(x, y, z)))
-            })
-        })
-    }
-
     /// Replaces `found` by the facets whose boxes may meet that of a facet, some of them several times.
     fn near(&self, mesh: &Mesh, facet: u32, found: &mut Vec<u32>) {
         found.clear();
-        match self.of(&mesh.corners(facet as usize)) {
-            Some(places) => {
-                let listed = places.filter_map(|place| self.listed.get(&place));
-                found.extend(listed.flatten());
-                found.extend(&self.large);
-            }
-            None => found.extend(0..mesh.classes.model_end()),
+        let is_small = each_cell(self.size_mm, &mesh.corners(facet as usize), &mut |place| {
+            found.extend(self.listed.get(&place).into_iter().flatten());
+        });
+        if is_small {
+            found.extend(&self.large);
+        } else {
+            found.extend(0..mesh.classes.model_end());
         }
     }
+}
+
+/// Calls `visit` with the cells that the box of a facet meets. Returns false if they are too many.
+fn each_cell(size_mm: f64, corners: &[DVec3; 3], visit: &mut dyn FnMut(IVec3)) -> bool {
+    let [low, high] = bounds(corners).map(|it| (it / size_mm).floor().as_ivec3());
+    if (high - low).max_element() >= MOST_CELLS {
+        return false;
+    }
+    for x in low.x..=high.x {
+        for y in low.y..=high.y {
+            for z in low.z..=high.z {
+                visit(IVec3::new(x, y, z));
+            }
+        }
+    }
+    true
 }
 
 #[inline]
