@@ -22,7 +22,7 @@ impl Masks {
     pub(crate) fn short_columns(&self, until: &Until) -> [Self; 2] {
         let bands = parallel::map(self.bands.iter().collect(), |band| {
             let changes = short_in(band, self.samples, self.layers, until);
-            changes.map(|changes| Band::new(band.area.clone(), self.layers, Samples::ONE, changes))
+            changes.map(|changes| Band::new(band.area.clone(), self.layers, Samples::ONE, &changes))
         });
         let mut lit = self.blank();
         let mut dark = self.blank();

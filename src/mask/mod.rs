@@ -162,7 +162,7 @@ impl Masks {
             let area = place.area(&rows);
             let mut changes = Vec::new();
             find(rows, &mut changes);
-            Band::new(area, layers, samples, changes)
+            Band::new(area, layers, samples, &changes)
         });
         Self {
             grid: *grid,
@@ -272,21 +272,23 @@ fn each_change(sublayer: u32, parts: u32, sign: i8, pixel: u32, emit: &mut impl 
 
 impl Band {
     /// Sorts changes by layer with a counting sort.
-    fn new(area: Range<u32>, layers: usize, samples: Samples, mut changes: Vec<Change>) -> Self {
-        // Changes above the last layer belong to no mask.
-        changes.retain(|change| change.layer() < layers);
+    fn new(area: Range<u32>, layers: usize, samples: Samples, changes: &[Change]) -> Self {
         // Counts are stored one slot ahead: filling then advances each start to where it belongs.
         let mut starts = vec![0u32; layers + 2];
-        for change in &changes {
-            starts[change.layer() + 2] += 1;
+        for change in changes {
+            // Changes above the last layer belong to no mask.
+            if let Some(start) = starts.get_mut(change.layer() + 2) {
+                *start += 1;
+            }
         }
         for layer in 2..starts.len() {
             starts[layer] += starts[layer - 1];
         }
         let is_one = samples == Samples::ONE;
-        let mut pixels = vec![0u32; changes.len()];
-        let mut by = vec![0i8; if is_one { 0 } else { changes.len() }];
-        for change in &changes {
+        let kept = starts[layers + 1] as usize;
+        let mut pixels = vec![0u32; kept];
+        let mut by = vec![0i8; if is_one { 0 } else { kept }];
+        for change in changes.iter().filter(|change| change.layer() < layers) {
             let slot = &mut starts[change.layer() + 1];
             pixels[*slot as usize] = change.pixel;
             if !is_one {

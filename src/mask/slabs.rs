@@ -201,7 +201,7 @@ impl Reader<'_> {
             for change in &mut changes {
                 change.lower(layers.start);
             }
-            let band = Band::new(area, layers.len(), *samples, changes);
+            let band = Band::new(area, layers.len(), *samples, &changes);
             (windings, later, band)
         });
         let mut bands = Vec::with_capacity(found.len());

@@ -7,6 +7,8 @@
 
 use glam::{DVec3, Vec3};
 
+use crate::parallel;
+
 /// Width of a hole, as a fraction of the model's largest side, from which on its cap is curved,
 const WIDE: f64 = 0.1;
 /// and how far its border leaves a plane, as a fraction of its width.
@@ -16,8 +18,8 @@ const MOST_EDGES: usize = 4096;
 /// Spokes and rings of a cap.
 const SPOKES: usize = 48;
 const RINGS: usize = 6;
-/// Halvings of the distance between a fan and the cap.
-const HALVINGS: usize = 24;
+/// Halvings of the distance between a fan and the cap: to a 65,536th of the hole's width.
+const HALVINGS: usize = 16;
 
 /// Factor by which a product that has shrunk as far is enlarged.
 const LARGE: f64 = 1e100;
@@ -71,18 +73,18 @@ impl Bent {
         let count = hole.len();
         let spokes = SPOKES.min(count);
         let centre = vertices.len() as u32;
-        vertices.push(self.raised(self.middle));
-        // Rings from the inside out; the border is the last.
-        let mut inner = vec![centre; spokes];
+        // The middle, and rings from the inside out; the border is the last.
+        let mut fan = vec![self.middle];
         for ring in 1..RINGS {
             let part = ring as f64 / RINGS as f64;
-            let outer: Vec<u32> = (0..spokes)
-                .map(|spoke| {
-                    let rim = self.border[spoke * count / spokes];
-                    vertices.push(self.raised(self.middle + (rim - self.middle) * part));
-                    vertices.len() as u32 - 1
-                })
-                .collect();
+            let rim = (0..spokes).map(|spoke| self.border[spoke * count / spokes]);
+            fan.extend(rim.map(|rim| self.middle + (rim - self.middle) * part));
+        }
+        vertices.extend(parallel::map(fan, |point| self.raised(point)));
+        let mut inner = vec![centre; spokes];
+        for ring in 1..RINGS {
+            let first = centre + 1 + ((ring - 1) * spokes) as u32;
+            let outer: Vec<u32> = (first..first + spokes as u32).collect();
             for spoke in 0..spokes {
                 let next = (spoke + 1) % spokes;
                 facets.push([outer[spoke], outer[next], inner[spoke]]);
