@@ -44,6 +44,7 @@ impl Heights {
     /// The lowest limit: few keys to sort, and enough to make sorting worthwhile.
     const LIMIT: usize = 1 << 10;
 
+    /// Number of ranges that each new one is compared with: few solids have more parts along a ray.
     const RECENT: usize = 4;
 
     #[inline]

@@ -1,7 +1,7 @@
 //! Guarantees of a plan: tolerances, targets and true heights, with warnings where it cannot keep them.
 
 use crate::common::{assert_near, load, quiet, solids};
-use cusp_slicer::job::{Minimize, Options, Planner, Snap};
+use cusp_slicer::job::{Error, Minimize, Options, Planner, Snap};
 use cusp_slicer::profile::{Metric, Source};
 use cusp_slicer::warning::Warning;
 use glam::Vec3;
@@ -106,6 +106,8 @@ fn the_tolerance_holds_on_every_solid_under_every_metric() {
                 if metric == Metric::Cusp {
                     assert_eq!(report.max_error, report.max_error_mm);
                     assert_eq!(report.sampled_error, None, "{name}");
+                    let along_rays = slicer.profile(metric, Source::Sampled);
+                    assert!(matches!(along_rays, Err(Error::NoPlan)), "{name}");
                 }
                 assert!(
                     report.layers <= report.uniform.finest.layers,
