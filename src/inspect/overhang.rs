@@ -112,7 +112,8 @@ impl Reach {
             return left;
         };
         let far = rest.beyond_all(&doubtful, supported, 0, &self.straight);
-        unsupported.without(&unsupported.without(&left).without(&far))
+        let within = doubtful.without(&left).without(&far);
+        doubtful.without(&within)
     }
 }
 
@@ -154,24 +155,21 @@ impl Overhangs {
             .take_from(&mut unsupported, lit, layer.number, frame);
         if !unsupported.is_blank() {
             self.supported = lit.without(&unsupported);
-            found = self.found_in(&unsupported, lit);
+            found = self
+                .reach
+                .beyond(&unsupported, &self.supported, lit, &mut self.rest);
             let rest = self.bridges.not_held(&found, &unsupported, &self.supported);
             if rest != found {
                 let held = found.without(&rest);
                 unsupported = unsupported.without(&held);
                 self.supported = lit.without(&unsupported);
-                found = self.found_in(&unsupported, lit);
+                found = self
+                    .reach
+                    .beyond(&unsupported, &self.supported, lit, &mut self.rest);
             }
             self.unsupported = Some(unsupported);
         }
         self.regions.advance(layer.number, found, frame, collector);
-    }
-
-    /// The unsupported pixels of a layer that are an overhang, but for bridges.
-    fn found_in(&mut self, unsupported: &Rows, lit: &Rows) -> Rows {
-        let supported = &self.supported;
-        self.reach
-            .beyond(unsupported, supported, lit, &mut self.rest)
     }
 
     /// The unsupported pixels of a layer above one that has some: only rows near those can have more than `flat` has.

@@ -73,22 +73,20 @@ impl Cells {
         };
         let mut around = [DVec3::INFINITY, DVec3::NEG_INFINITY];
         for &facet in facets {
-            let corners = mesh.corners(facet as usize);
-            let [low, high] = bounds(&corners);
+            let [low, high] = bounds(&mesh.corners(facet as usize));
             around = [around[0].min(low), around[1].max(high)];
             let listed = &mut cells.listed;
-            each_cell(size_mm, &corners, &mut |place| {
+            each_cell(size_mm, [low, high], &mut |place| {
                 listed.entry(place).or_default();
             });
         }
         for facet in 0..end {
-            let corners = mesh.corners(facet as usize);
-            let [low, high] = bounds(&corners);
+            let [low, high] = bounds(&mesh.corners(facet as usize));
             if low.cmpgt(around[1]).any() || around[0].cmpgt(high).any() {
                 continue;
             }
             let listed = &mut cells.listed;
-            let is_small = each_cell(size_mm, &corners, &mut |place| {
+            let is_small = each_cell(size_mm, [low, high], &mut |place| {
                 if let Some(listed) = listed.get_mut(&place) {
                     listed.push(facet);
                 }
@@ -103,7 +101,8 @@ impl Cells {
     /// Replaces `found` by the facets whose boxes may meet that of a facet, some of them several times.
     fn near(&self, mesh: &Mesh, facet: u32, found: &mut Vec<u32>) {
         found.clear();
-        let is_small = each_cell(self.size_mm, &mesh.corners(facet as usize), &mut |place| {
+        let box_mm = bounds(&mesh.corners(facet as usize));
+        let is_small = each_cell(self.size_mm, box_mm, &mut |place| {
             found.extend(self.listed.get(&place).into_iter().flatten());
         });
         if is_small {
@@ -114,9 +113,9 @@ impl Cells {
     }
 }
 
-/// Calls `visit` with the cells that the box of a facet meets. Returns false if they are too many.
-fn each_cell(size_mm: f64, corners: &[DVec3; 3], visit: &mut dyn FnMut(IVec3)) -> bool {
-    let [low, high] = bounds(corners).map(|it| (it / size_mm).floor().as_ivec3());
+/// Calls `visit` with the cells that a box meets. Returns false if they are too many.
+fn each_cell(size_mm: f64, bounds_mm: [DVec3; 2], visit: &mut dyn FnMut(IVec3)) -> bool {
+    let [low, high] = bounds_mm.map(|it| (it / size_mm).floor().as_ivec3());
     if (high - low).max_element() >= MOST_CELLS {
         return false;
     }

@@ -261,14 +261,11 @@ impl Voxels {
     /// The unsupported pixels of a layer out of reach of its supported ones, straight or along lit pixels.
     fn out_of_reach(&self, unsupported: &Plane, supported: &Plane, reach_mm: f64) -> Plane {
         let far = self.beyond(unsupported, supported, reach_mm);
-        let near = |left: &Plane| {
-            let is_reached = |at: usize| supported[at] || (unsupported[at] && !left[at]);
-            (0..left.len()).map(is_reached).collect::<Plane>()
-        };
         let mut left = unsupported.clone();
         let step_mm = f64::max(0.1, 2.0 * self.pitch_mm());
         for _ in 0..(reach_mm / step_mm).ceil() as usize {
-            let reached = near(&left);
+            let is_reached = |at: usize| supported[at] || (unsupported[at] && !left[at]);
+            let reached: Plane = (0..left.len()).map(is_reached).collect();
             left = self.beyond(&left, &reached, 1.12 * step_mm);
         }
         (0..far.len()).map(|at| far[at] || left[at]).collect()
