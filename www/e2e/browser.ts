@@ -1,6 +1,5 @@
 /** A real headless Chromium, and the actions of a user on the page. */
 import { readFile } from "node:fs/promises";
-import { fileURLToPath } from "node:url";
 import { chromium, type Browser, type BrowserContextOptions, type Download, type Locator, type Page } from "playwright-core";
 import { program } from "./program.js";
 
@@ -27,15 +26,14 @@ export const SOFTWARE_GL = ["--enable-unsafe-swiftshader"];
 
 /** The browser named by CHROMIUM, or the first of its usual names on PATH. */
 function executable(): string {
-  const found = program(["chromium", "chromium-browser", "google-chrome"], "CHROMIUM");
+  const found = program(["chromium-headless-shell", "chromium", "chromium-browser", "google-chrome"], "CHROMIUM");
   if (found === null) throw new Error("no Chromium on PATH: install one, or name it in the variable CHROMIUM");
   return found;
 }
 
 /** @param flags additional flags of the browser */
 export function launch(flags: readonly string[] = [NO_GPU]): Promise<Browser> {
-  const env = { ...process.env, CUSP_CHROMIUM: executable() };
-  return chromium.launch({ executablePath: fileURLToPath(new URL("chromium.sh", import.meta.url)), env, args: [...FLAGS, ...flags] });
+  return chromium.launch({ executablePath: executable(), args: [...FLAGS, ...flags] });
 }
 
 export interface Opened {
