@@ -16,6 +16,9 @@ const LONGER: f64 = 1.028;
 /// Length of a knight's move, in cells.
 const KNIGHT: f32 = 2.236_068;
 
+/// Cells at the rim of a square that count as unlit, so that no step leads out of it.
+const RIM: usize = 2;
+
 /// The surfaces around all contacts.
 pub(super) struct Surfaces {
     /// Columns and rows of pixels in a cell.
@@ -61,27 +64,35 @@ impl Contact {
         self.middle.map(|it| (it - self.half) as usize)
     }
 
-    fn beside(&self, cell: usize, step: [isize; 2]) -> Option<usize> {
-        ways::beside(cell, step, [self.side(); 2])
+    /// Fills `lit` with the lit cells of the square.
+    fn copy_lit(&self, cells: &Cells, lit: &mut Vec<bool>) {
+        let ([first_column, first_row], side) = (self.corner(), self.side());
+        lit.clear();
+        lit.resize(side * side, false);
+        for row in RIM..side - RIM {
+            let first = (first_row + row) * cells.columns + first_column;
+            lit[row * side + RIM..(row + 1) * side - RIM]
+                .copy_from_slice(&cells.is_lit[first + RIM..first + side - RIM]);
+        }
     }
 
-    /// Follows the lit cells from the last layer to this one.
-    fn advance(&mut self, cells: &Cells) {
+    /// Follows the lit cells from the last layer to this one. `lit` is memory for those of the square.
+    fn advance(&mut self, cells: &Cells, lit: &mut Vec<bool>) {
         let [first_column, first_row] = self.corner();
         let side = self.side();
-        let is_lit = |cell: usize| {
-            let (column, row) = (first_column + cell % side, first_row + cell / side);
-            cells.is_lit[row * cells.columns + column]
-        };
+        let offset = |[dx, dy]: [isize; 2]| dy * side as isize + dx;
+        let around = AROUND.map(|step| (offset(step), ways::length(step)));
+        let knights = KNIGHTS.map(|(step, between)| (offset(step), between.map(|it| around[it].0)));
         let mut from = Vec::new();
         if self.away.is_empty() {
+            self.copy_lit(cells, lit);
             // The tip itself is lit where pixels are fine enough.
             let middle = self.half as usize * (side + 1);
-            if is_lit(middle) {
+            if lit[middle] {
                 from.push((0.0, middle));
             } else {
-                let around = AROUND.iter().filter_map(|&step| self.beside(middle, step));
-                from.extend(around.filter(|&it| is_lit(it)).map(|it| (0.0, it)));
+                let around = around.iter().map(|it| middle.wrapping_add_signed(it.0));
+                from.extend(around.filter(|&it| lit[it]).map(|it| (0.0, it)));
             }
             if from.is_empty() {
                 return;
@@ -97,32 +108,38 @@ impl Contact {
             let end = (first_row + side) * cells.columns;
             let changed = cells.changed[begin..].iter().take_while(|&&it| it < end);
             let changed: Vec<usize> = changed.filter_map(local).collect();
+            if changed.is_empty() {
+                return;
+            }
+            self.copy_lit(cells, lit);
             for &cell in &changed {
                 self.away[cell] = f32::INFINITY;
             }
-            let steps = AROUND.into_iter().chain(KNIGHTS.map(|it| it.0));
-            for &cell in changed.iter().filter(|&&it| is_lit(it)) {
-                let near = steps.clone().filter_map(|step| self.beside(cell, step));
-                let near = near.filter(|&it| self.away[it] < self.reach);
-                from.extend(near.map(|it| (self.away[it], it)));
-            }
-        }
-        let mut away = std::mem::take(&mut self.away);
-        ways::spread(&mut away, self.reach, &from, &mut |cell, reach| {
-            let lit = |step| self.beside(cell, step).filter(|&it| is_lit(it));
-            for step in AROUND {
-                if let Some(there) = lit(step) {
-                    reach(there, ways::length(step));
+            for &cell in changed.iter().filter(|&&it| lit[it]) {
+                let steps = around.iter().map(|it| it.0);
+                for step in steps.chain(knights.iter().map(|it| it.0)) {
+                    let near = cell.wrapping_add_signed(step);
+                    if self.away[near] < self.reach {
+                        from.push((self.away[near], near));
+                    }
                 }
             }
-            for (step, between) in KNIGHTS {
-                let there = lit(step).filter(|_| between.iter().all(|&it| lit(it).is_some()));
-                if let Some(there) = there {
+        }
+        ways::spread(&mut self.away, self.reach, &from, &mut |cell, reach| {
+            for (step, length) in around {
+                let there = cell.wrapping_add_signed(step);
+                if lit[there] {
+                    reach(there, length);
+                }
+            }
+            for (step, between) in knights {
+                let there = cell.wrapping_add_signed(step);
+                let mut between = between.iter();
+                if lit[there] && between.all(|&it| lit[cell.wrapping_add_signed(it)]) {
                     reach(there, KNIGHT);
                 }
             }
         });
-        self.away = away;
     }
 }
 
@@ -143,7 +160,7 @@ impl Surfaces {
                 z_mm,
                 reach_mm,
                 reach: reach as f32,
-                half: reach as i32 + 1,
+                half: reach as i32 + 1 + RIM as i32,
                 middle: [column.div_euclid(cell[0]), row.div_euclid(cell[1])],
                 away: Vec::new(),
             }
@@ -184,8 +201,9 @@ impl Surfaces {
         }
         self.cells.advance(self.cell, lit);
         let mut spans: Vec<(i32, Span)> = Vec::new();
+        let mut lit_cells = Vec::new();
         for place in 0..count {
-            self.contacts[place].advance(&self.cells);
+            self.contacts[place].advance(&self.cells, &mut lit_cells);
             let contact = &self.contacts[place];
             if !contact.away.is_empty() && self.is_near(contact, rows) {
                 self.held_by(contact, &mut spans);

@@ -52,24 +52,30 @@ impl<'a> Held<'a> {
         let rays = self.rays;
         let pitch_mm = rays.ldi.grid.pitch_mm as f32;
         let runs_mm2 = [1.0, 2.0, 5.0].map(|squares: f32| squares * pitch_mm * pitch_mm);
+        // Stretches around one that overlap it.
+        let mut around = [const { Vec::new() }; 8];
         ways::spread(&mut self.away_mm, self.most_mm, from, &mut |here, reach| {
             let ray = rays.stretches[here].ray;
             let mut reach = |there: usize, run_mm2: f32| {
                 let rise_mm = rays.stretches[there].from_mm - rays.stretches[here].from_mm;
                 reach(there, (run_mm2 + rise_mm * rise_mm).sqrt());
             };
-            for step in AROUND {
+            for (step, around) in AROUND.into_iter().zip(&mut around) {
                 let run_mm2 = runs_mm2[usize::from(step[0] != 0 && step[1] != 0)];
-                for there in rays.near(ray, step).filter(|&it| rays.overlap(here, it)) {
+                around.clear();
+                around.extend(rays.near(ray, step).filter(|&it| rays.overlap(here, it)));
+                for &there in &*around {
                     reach(there, run_mm2);
                 }
             }
             for (step, between) in KNIGHTS {
+                let between = between.map(|it| &around[it]);
+                if between.iter().any(|it| it.is_empty()) {
+                    continue;
+                }
                 let passes = |there: usize| {
-                    between.iter().all(|&step| {
-                        let mut those = rays.near(ray, step);
-                        those.any(|it| rays.overlap(here, it) && rays.overlap(it, there))
-                    })
+                    let mut all = between.iter();
+                    all.all(|those| those.iter().any(|&it| rays.overlap(it, there)))
                 };
                 for there in rays.near(ray, step).filter(|&it| passes(it)) {
                     reach(there, runs_mm2[2]);
