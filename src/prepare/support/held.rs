@@ -11,6 +11,8 @@ pub(super) struct Held<'a> {
     most_mm: f32,
     /// By stretch.
     away_mm: Vec<f32>,
+    /// Memory for the stretches around one that overlap it, by step.
+    around: [Vec<usize>; 8],
 }
 
 impl<'a> Held<'a> {
@@ -20,6 +22,7 @@ impl<'a> Held<'a> {
             rays,
             most_mm: most_mm as f32,
             away_mm: vec![f32::INFINITY; rays.stretches.len()],
+            around: Default::default(),
         }
     }
 
@@ -52,15 +55,14 @@ impl<'a> Held<'a> {
         let rays = self.rays;
         let pitch_mm = rays.ldi.grid.pitch_mm as f32;
         let runs_mm2 = [1.0, 2.0, 5.0].map(|squares: f32| squares * pitch_mm * pitch_mm);
-        // Stretches around one that overlap it.
-        let mut around = [const { Vec::new() }; 8];
+        let around = &mut self.around;
         ways::spread(&mut self.away_mm, self.most_mm, from, &mut |here, reach| {
             let ray = rays.stretches[here].ray;
             let mut reach = |there: usize, run_mm2: f32| {
                 let rise_mm = rays.stretches[there].from_mm - rays.stretches[here].from_mm;
                 reach(there, (run_mm2 + rise_mm * rise_mm).sqrt());
             };
-            for (step, around) in AROUND.into_iter().zip(&mut around) {
+            for (step, around) in AROUND.into_iter().zip(&mut *around) {
                 let run_mm2 = runs_mm2[usize::from(step[0] != 0 && step[1] != 0)];
                 around.clear();
                 around.extend(rays.near(ray, step).filter(|&it| rays.overlap(here, it)));
