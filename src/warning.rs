@@ -7,6 +7,7 @@ use crate::model::ModelUnit;
 use crate::model::read::PartKind;
 use crate::plan::uniform::UniformLayers;
 use crate::profile::Metric;
+use crate::resin::Resin;
 
 /// Size of a model if its file is in a unit.
 #[derive(Debug, Clone, Copy, PartialEq, Serialize)]
@@ -254,6 +255,21 @@ pub enum Warning {
 }
 
 impl Warning {
+    /// The warning about layers of these thicknesses whose exposure is beyond those that are measured.
+    pub(crate) fn of_exposures(resin: &Resin, thickness_mm: &[f64]) -> Option<Self> {
+        /// Rounding error of thicknesses, which are whole bins.
+        const ROUNDING_MM: f64 = 1e-6;
+        let [thinnest_mm, thickest_mm] = resin.measured_mm()?;
+        let measured_mm = thinnest_mm - ROUNDING_MM..=thickest_mm + ROUNDING_MM;
+        let exposed = thickness_mm.iter().skip(resin.bottom_layers);
+        let layers = exposed.filter(|it| !measured_mm.contains(it)).count();
+        (layers > 0).then_some(Self::ExtrapolatedExposures {
+            layers,
+            thinnest_mm,
+            thickest_mm,
+        })
+    }
+
     /// Returns true if it depends on the machine, not on the plan.
     pub(crate) fn is_of_the_machine(&self) -> bool {
         matches!(self, Self::GpuTooSmall { .. } | Self::GpuFailed { .. })

@@ -9,7 +9,9 @@ use crate::arrange::Arranging;
 use crate::filament::{FilamentSlicer, LayerRule, NOZZLES_MM, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::inspect::Limits;
-use crate::prepare::{AutoDrain, LEAST_WALL_MM, MOST_SUPPORT_MM, SupportProfile, SupportStrength};
+use crate::prepare::{
+    AutoDrain, LEAST_GAP_MM, LEAST_WALL_MM, MOST_SUPPORT_MM, SupportProfile, SupportStrength,
+};
 use crate::profile::Metric;
 
 /// The options that rays depend on. A change of any other repeats the plan or the print file alone.
@@ -67,6 +69,8 @@ pub struct Facts {
     pub support_least: BTreeMap<&'static str, f64>,
     /// The largest size of any part of supports.
     pub support_most_mm: f64,
+    /// Least distance between a raft and the model.
+    pub raft_gap_mm: f64,
     /// Default diameter of drain holes.
     pub drain_mm: f64,
     /// Numbers of layers of the bridges that measure print-through.
@@ -143,6 +147,7 @@ impl Default for Facts {
             },
             support_least: least.collect(),
             support_most_mm: MOST_SUPPORT_MM,
+            raft_gap_mm: LEAST_GAP_MM,
             drain_mm: AutoDrain::default().diameter_mm,
             bridges: Calibration::BRIDGES,
             bridges_mm: Calibration::BRIDGES_MM,

@@ -576,7 +576,7 @@ pub(super) fn report_of(
             });
         }
         Some(_) => {}
-        None => warnings.extend(exposure_warning(&layering.resin, &thickness_mm)),
+        None => warnings.extend(Warning::of_exposures(&layering.resin, &thickness_mm)),
     }
     Report {
         schema: SCHEMA,
@@ -651,21 +651,6 @@ fn thickness_warning(planned: &Planned, output: &Output, thickness_mm: &[f64]) -
     Some(Warning::OneThickness {
         taker,
         best: planned.best_uniform(),
-    })
-}
-
-/// The warning about layers whose exposure is beyond those that are measured.
-fn exposure_warning(resin: &Resin, thickness_mm: &[f64]) -> Option<Warning> {
-    /// Rounding error of thicknesses, which are whole bins.
-    const ROUNDING_MM: f64 = 1e-6;
-    let [thinnest_mm, thickest_mm] = resin.measured_mm()?;
-    let measured_mm = thinnest_mm - ROUNDING_MM..=thickest_mm + ROUNDING_MM;
-    let exposed = thickness_mm.iter().skip(resin.bottom_layers);
-    let layers = exposed.filter(|it| !measured_mm.contains(it)).count();
-    (layers > 0).then_some(Warning::ExtrapolatedExposures {
-        layers,
-        thinnest_mm,
-        thickest_mm,
     })
 }
 

@@ -11,9 +11,14 @@ pub enum SimulationError {
     /// The progress callback asked to stop.
     #[error(transparent)]
     Cancelled(#[from] Cancelled),
-    /// The model cannot stand in the pose of the print file.
-    #[error(transparent)]
-    Mesh(#[from] MeshError),
+    /// A model cannot stand in the pose of the print file.
+    #[error("{error}")]
+    Mesh {
+        /// The model, by its index.
+        model: usize,
+        /// What prevents it.
+        error: MeshError,
+    },
     /// The print file cannot be read.
     #[error(transparent)]
     File(#[from] PrintFileError),

@@ -220,7 +220,11 @@ fn standing(
             ..pose
         };
         let turned = pose.turned(copy.turn_deg % 360 * TURNS / 360);
-        Ok::<_, SimulationError>(original.mesh.on_plate(&turned)?)
+        let mesh = original.mesh.on_plate(&turned);
+        mesh.map_err(|error| SimulationError::Mesh {
+            model: copy.model,
+            error,
+        })
     };
     if let [alone] = copies
         && alone.middle_mm == [0.0; 2]
@@ -238,7 +242,8 @@ fn standing(
         let surface = mesh.of_class(FacetClass::Surface).iter();
         triangles.extend(surface.map(|facet| facet.map(moved)));
     }
-    Ok(Mesh::from_triangles(&triangles)?)
+    let model = copies.first().map_or(0, |copy| copy.model);
+    Mesh::from_triangles(&triangles).map_err(|error| SimulationError::Mesh { model, error })
 }
 
 /// Moves the masks to their place, and returns the source of that place and the distance of their centre from the

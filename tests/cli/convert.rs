@@ -65,6 +65,19 @@ fn a_print_file_becomes_one_of_another_format() {
     );
     let found = json(&cusp(&["inspect", &slower, "--json"]));
     assert_eq!(found["exposure_range_s"], serde_json::json!([7.5, 30.0]));
+    // Of exposures that are measured for thinner layers alone, its own are no measurement.
+    let measured = model(
+        &folder,
+        "measured.json",
+        br#"{"bottom_layers": 1, "exposures": [[0.02, 4], [0.03, 5]]}"#,
+    );
+    let output = cusp(&["convert", &print, &slower, "--resin", &measured, "--json"]);
+    let says = String::from_utf8(output.stderr.clone()).unwrap();
+    assert!(says.contains("is extrapolated"), "{says}");
+    let warnings = &json(&output)["warnings"];
+    assert_eq!(warnings.as_array().map(Vec::len), Some(1));
+    assert_eq!(warnings[0]["code"], "extrapolated-exposures");
+    assert_eq!(warnings[0]["detail"]["thickest_mm"], 0.03);
 }
 
 #[test]

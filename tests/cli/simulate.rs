@@ -102,6 +102,12 @@ fn every_copy_on_a_plate_is_measured_where_the_file_or_a_job_says_that_it_stands
     );
     assert_eq!(json(&cusp(&["simulate", &job, &print, "--json"])), found);
 
+    // The model that cannot stand is named, and not the first one.
+    let flat = [glam::Vec3::ZERO, glam::Vec3::X, glam::Vec3::Y];
+    let flat = model(&folder, "flat.stl", &binary_stl(&[flat]));
+    let output = cusp(&["simulate", &plate, &flat, &print]);
+    assert_fails(&output, 1, "flat.stl: the model has no height");
+
     // A project is a job whose models are inside.
     let project = path("plate.3mf");
     assert!(

@@ -3,6 +3,7 @@
 use std::path::PathBuf;
 
 use clap::Args;
+use cusp_slicer::Warning;
 use cusp_slicer::archive::ArchiveError;
 use cusp_slicer::archive::read::{PrintFile, inspect};
 use cusp_slicer::format::Format;
@@ -55,6 +56,7 @@ pub struct Converted {
     pub layers: usize,
     pub print_time_s: f64,
     pub losses: Vec<Loss>,
+    pub warnings: Vec<Warning>,
 }
 
 impl Converting {
@@ -100,6 +102,8 @@ pub fn convert(converting: &Converting) -> Result<(), Failure> {
     drop(bar);
     warn(&inspection.warnings);
     warn(conversion.losses());
+    let warnings = conversion.warnings();
+    warn(&warnings);
     let printer = conversion.printer().map(|printer| &printer.model);
     if converting.json {
         return Ok(print_json(&Converted {
@@ -108,6 +112,7 @@ pub fn convert(converting: &Converting) -> Result<(), Failure> {
             layers: inspection.layers,
             print_time_s: conversion.print_time_s(),
             losses: conversion.losses().to_vec(),
+            warnings,
         })?);
     }
     let printer = printer.map_or(String::new(), |printer| format!(" for the {printer}"));

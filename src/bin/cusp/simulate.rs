@@ -1,7 +1,7 @@
 //! Measures the print of a print file against the model.
 
 use std::fs;
-use std::path::{Path, PathBuf};
+use std::path::PathBuf;
 
 use clap::Args;
 use cusp_slicer::archive::read::PrintedCopy;
@@ -105,14 +105,6 @@ impl Originals {
         self.paths.push(path);
         Ok(())
     }
-
-    /// The model that a failure is about, or the job file.
-    fn path<'a>(&'a self, simulating: &'a Simulating) -> &'a Path {
-        match &self.paths[..] {
-            [only] => only,
-            _ => &simulating.models[0],
-        }
-    }
 }
 
 impl Simulating {
@@ -155,7 +147,7 @@ pub fn simulate(simulating: &Simulating) -> Result<(), Failure> {
     let simulation = measure(&originals.models, &printed, &knowledge, &mut progress);
     let simulation = simulation.map_err(|error| match error {
         SimulationError::Cancelled(_) => Failure::interrupted(),
-        SimulationError::Mesh(error) => in_file(originals.path(simulating), &error).into(),
+        SimulationError::Mesh { model, error } => in_file(&originals.paths[model], &error).into(),
         error => in_file(print_file, &error).into(),
     })?;
     drop(bar);

@@ -21,6 +21,7 @@ use crate::printer::{Printer, PrinterChoice};
 use crate::progress::Progress;
 use crate::quantity::{Quantity, QuantityError};
 use crate::resin::Resin;
+use crate::warning::Warning;
 
 /// Changes to a print file. Absent values stay the same.
 #[derive(Debug, Clone, PartialEq, Default)]
@@ -268,6 +269,14 @@ impl<'a> Conversion<'a> {
     /// The format of the new file.
     pub fn format(&self) -> Format {
         self.format
+    }
+
+    /// Warnings about the exposures of a resin that was given.
+    pub fn warnings(&self) -> Vec<Warning> {
+        let thickness_mm: Vec<f64> = self.layers.iter().map(|it| it.thickness_mm).collect();
+        Warning::of_exposures(&self.resin, &thickness_mm)
+            .into_iter()
+            .collect()
     }
 
     /// The printer of the new file, if one is named or known.

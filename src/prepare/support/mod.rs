@@ -326,7 +326,7 @@ impl Supporting {
 const LEAST_CLEARANCE_MM: f64 = 0.1;
 
 /// Least distance between a raft and the model.
-const LEAST_GAP_MM: f64 = 1.0;
+pub(crate) const LEAST_GAP_MM: f64 = 1.0;
 
 /// The largest size of any part.
 pub(crate) const MOST_SUPPORT_MM: f64 = 50.0;
