@@ -326,7 +326,12 @@ test("a raft has sizes once it is on", () => {
   const sizes = { supports: "medium", raftThickness: "1.5", raftMargin: "0" } as const;
   expect(options({ ...sizes, raftThickness: "x" })).toHaveProperty("supports", { strength: "medium" });
   expect(options({ ...sizes, raft: "on" })).toHaveProperty("supports.profile", { raft: true, raft_thickness_mm: 1.5, raft_margin_mm: 0 });
-  expect(faults({ ...sizes, raft: "on", raftThickness: "0.1" }).raftThickness).toBe("Must be 0.2 to 50 mm.");
+  expect(faults({ ...sizes, raft: "on", raftThickness: "0.1" }).raftThickness).toBe("Must be 0.2 to 4 mm.");
+  // Supports need room between raft and model.
+  expect(faults({ ...sizes, raft: "on", raftThickness: "4.5" }).raftThickness).toBe("Must be 0.2 to 4 mm.");
+  expect(faults({ ...sizes, raft: "on", lift: "2" })).toEqual({ lift: "Must be 2.5 to 50 mm." });
+  expect(faults({ ...sizes, raft: "on", lift: "2", raftThickness: "" })).toEqual({});
+  expect(faults({ ...sizes, lift: "0" })).toEqual({});
 });
 
 test("sizes of supports are within the core's bounds, and a pillar is no wider than its foot", () => {

@@ -31,12 +31,30 @@ export function usualSize(field: SizeField, strength: SupportStrength): number {
   return field === "supportAngle" ? Math.round(angleOf(size)) : size;
 }
 
+type Typed = Readonly<Sizes> & { readonly raft: "off" | "on" };
+
 /** Bounds of a size, in the unit of the field. */
-function boundsOf(field: SizeField, strength: SupportStrength): [least: number, most: number] {
+function boundsOf(field: SizeField, settings: Typed, strength: SupportStrength): [least: number, most: number] {
   const least = FACTS.support_least[NAMES[field]];
-  if (field === "supportAngle") return [Math.ceil(angleOf(least)), Math.floor(angleOf(FACTS.support_most_mm))];
-  // A pillar is no wider than its foot.
-  return [least, field === "pillar" ? FACTS.supports[strength].foot_mm : FACTS.support_most_mm];
+  const most = FACTS.support_most_mm;
+  const gap_mm = settings.raft === "on" ? FACTS.raft_gap_mm : 0;
+  switch (field) {
+    case "supportAngle":
+      return [Math.ceil(angleOf(least)), Math.floor(angleOf(most))];
+    case "pillar":
+      // No wider than its foot.
+      return [least, FACTS.supports[strength].foot_mm];
+    case "lift": {
+      // Supports need room above a raft.
+      const { raftThickness } = settings;
+      const raft_mm = raftThickness.trim() === "" ? usualSize("raftThickness", strength) : Number(raftThickness) || 0;
+      return [gap_mm === 0 ? least : Math.max(least, raft_mm + gap_mm), most];
+    }
+    case "raftThickness":
+      return [least, settings.lift.trim() === "" ? usualSize("lift", strength) - gap_mm : most];
+    default:
+      return [least, most];
+  }
 }
 
 /**
@@ -45,7 +63,7 @@ function boundsOf(field: SizeField, strength: SupportStrength): [least: number, 
  * @param within reads the number of a field, and reports one out of bounds
  */
 export function profileOf(
-  settings: Readonly<Sizes> & { readonly raft: "off" | "on" },
+  settings: Typed,
   strength: SupportStrength,
   within: (field: SizeField, text: string, least: number, most: number) => number,
 ): SupportProfile | null {
@@ -54,7 +72,7 @@ export function profileOf(
   for (const field of SIZE_FIELDS) {
     const isUnused = !hasRaft && (field === "raftThickness" || field === "raftMargin");
     if (isUnused || settings[field].trim() === "") continue;
-    const size = within(field, settings[field], ...boundsOf(field, strength));
+    const size = within(field, settings[field], ...boundsOf(field, settings, strength));
     if (size !== usualSize(field, strength)) profile[NAMES[field]] = field === "supportAngle" ? slopeOf(size) : size;
   }
   return Object.keys(profile).length === 0 ? null : profile;
