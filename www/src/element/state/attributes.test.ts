@@ -3,6 +3,7 @@ import type { SlicerError } from "../../api/error.js";
 import { FACTS, FORMATS } from "../../api/facts.js";
 import type { KnownPrinter, Printer } from "../../api/wire.js";
 import { Attributes, settingsOf } from "./attributes.js";
+import { METRICS } from "./metric.js";
 import type { SettingName } from "../properties.js";
 import type { PlateState } from "./plate.js";
 import { Preferences } from "./preferences.js";
@@ -64,14 +65,14 @@ test("the message names the attribute, the value and what was expected", () => {
   for (const [name, said] of [["metric", "cups"], ["tolerance", "abc"], ["layer-min", "7"]] as const) attributes.set(name, said);
   attributes.settle();
   expect(told.map(({ message }) => message)).toEqual([
-    `metric="cups" is none of cusp, deviation, filament-roundness, roughness, area, volume; the last good value stays`,
+    `metric="cups" is none of ${Object.keys(METRICS).join(", ")}; the last good value stays`,
     `tolerance="abc" is no number; the last good value stays`,
     `layer-min="7" is not from 0.001 to 1; the last good value stays`,
   ]);
 });
 
 test.each([
-  ["metric", "cups", ["cusp", "deviation", "filament-roundness", "roughness", "area", "volume"]],
+  ["metric", "cups", Object.keys(METRICS)],
   ["format", "zip", [...FORMATS]],
   ["backend", "auto", ["cpu", "gpu"]],
 ] as const)("%s must be one of a list, which the error names", (attribute, value, known) => {
