@@ -1,7 +1,7 @@
-/** Takes the README's pictures from the built page: `npm run screenshots`. */
-import { mkdir, stat } from "node:fs/promises";
+/** Takes the README's pictures from the built page, and draws its icon for iOS: `npm run screenshots`. */
+import { mkdir, readFile, stat } from "node:fs/promises";
 import { fileURLToPath } from "node:url";
-import type { BrowserContextOptions, Page } from "playwright-core";
+import type { Browser, BrowserContextOptions, Page } from "playwright-core";
 import { downloaded, drop, launch, open, SOFTWARE_GL, openPanel, state } from "./browser.js";
 import { serve } from "./serve.js";
 
@@ -108,12 +108,22 @@ async function chooseLayer(page: Page, part: number): Promise<void> {
   await slider.fill(String(Math.round(part * Number(await slider.getAttribute("max")))));
 }
 
+/** The icon on the home screens of iOS, which reads no SVG and rounds corners itself. */
+async function icon(browser: Browser): Promise<void> {
+  const at = (name: string): string => fileURLToPath(new URL(`../src/page/${name}`, import.meta.url));
+  const page = await browser.newPage({ viewport: { width: 180, height: 180 } });
+  await page.setContent(`<body style="margin: 0; background: #1f4f96">${await readFile(at("icon.svg"), "utf8")}</body>`);
+  await page.screenshot({ path: at("icon.png") });
+  await page.close();
+}
+
 export async function main([folder]: string[]): Promise<void> {
   const into = folder ?? fileURLToPath(new URL("../../docs/", import.meta.url));
   await mkdir(into, { recursive: true });
   const served = await serve();
   const browser = await launch(SOFTWARE_GL);
   try {
+    await icon(browser);
     for (const { name, query = "", options, isEmpty = false, take = whole } of SHOTS) {
       const { page } = await open(browser, served.address + query, { reducedMotion: "reduce", ...options });
       if (!isEmpty) await example(page);
