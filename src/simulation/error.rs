@@ -16,9 +16,12 @@ pub enum SimulationError {
     Mesh {
         /// The model, by its index.
         model: usize,
-        /// What prevents it.
+        /// Error of its mesh.
         error: MeshError,
     },
+    /// The copies cannot stand where the print file places them.
+    #[error(transparent)]
+    Places(#[from] MeshError),
     /// The print file cannot be read.
     #[error(transparent)]
     File(#[from] PrintFileError),

@@ -242,8 +242,7 @@ fn standing(
         let surface = mesh.of_class(FacetClass::Surface).iter();
         triangles.extend(surface.map(|facet| facet.map(moved)));
     }
-    let model = copies.first().map_or(0, |copy| copy.model);
-    Mesh::from_triangles(&triangles).map_err(|error| SimulationError::Mesh { model, error })
+    Ok(Mesh::from_triangles(&triangles)?)
 }
 
 /// Moves the masks to their place, and returns the source of that place and the distance of their centre from the

@@ -112,7 +112,8 @@ async function chooseLayer(page: Page, part: number): Promise<void> {
 async function icon(browser: Browser): Promise<void> {
   const at = (name: string): string => fileURLToPath(new URL(`../src/page/${name}`, import.meta.url));
   const page = await browser.newPage({ viewport: { width: 180, height: 180 } });
-  await page.setContent(`<body style="margin: 0; background: #1f4f96">${await readFile(at("icon.svg"), "utf8")}</body>`);
+  const svg = await readFile(at("icon.svg"), "utf8");
+  await page.setContent(`<body style="margin: 0">${svg.replace(/ rx="\d+"/, "")}</body>`);
   await page.screenshot({ path: at("icon.png") });
   await page.close();
 }

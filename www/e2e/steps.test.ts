@@ -180,9 +180,9 @@ test("after a download the page says what to do with the file, until the plan ch
   const manifest = (await (await page.request.get(address)).json()) as { start_url: string; display: string; icons: { src: string }[] };
   expect([manifest.start_url, manifest.display]).toEqual(["./", "standalone"]);
   for (const { src } of manifest.icons) expect((await page.request.get(new URL(src, address).href)).ok()).toBe(true);
-  const touched = await page.locator("link[rel=apple-touch-icon]").evaluate((link) => (link as HTMLLinkElement).href);
+  const touchIcon = await page.locator("link[rel=apple-touch-icon]").evaluate((link) => (link as HTMLLinkElement).href);
   // The size is in the header of the PNG.
-  const png = await (await page.request.get(touched)).body();
+  const png = await (await page.request.get(touchIcon)).body();
   expect([png.toString("latin1", 1, 4), png.readUInt32BE(16), png.readUInt32BE(20)]).toEqual(["PNG", 180, 180]);
 });
 

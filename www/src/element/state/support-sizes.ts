@@ -31,13 +31,13 @@ export function usualSize(field: SizeField, strength: SupportStrength): number {
   return field === "supportAngle" ? Math.round(angleOf(size)) : size;
 }
 
+/** Typed sizes, and the switch that decides which of them count. */
 type Typed = Readonly<Sizes> & { readonly raft: "off" | "on" };
 
 /** Bounds of a size, in the unit of the field. */
 function boundsOf(field: SizeField, settings: Typed, strength: SupportStrength): [least: number, most: number] {
   const least = FACTS.support_least[NAMES[field]];
   const most = FACTS.support_most_mm;
-  const gap_mm = settings.raft === "on" ? FACTS.raft_gap_mm : 0;
   switch (field) {
     case "supportAngle":
       return [Math.ceil(angleOf(least)), Math.floor(angleOf(most))];
@@ -45,13 +45,14 @@ function boundsOf(field: SizeField, settings: Typed, strength: SupportStrength):
       // No wider than its foot.
       return [least, FACTS.supports[strength].foot_mm];
     case "lift": {
+      const { raft, raftThickness } = settings;
+      if (raft === "off") return [least, most];
       // Supports need room above a raft.
-      const { raftThickness } = settings;
       const raft_mm = raftThickness.trim() === "" ? usualSize("raftThickness", strength) : Number(raftThickness) || 0;
-      return [gap_mm === 0 ? least : Math.max(least, raft_mm + gap_mm), most];
+      return [Math.max(least, raft_mm + FACTS.raft_gap_mm), most];
     }
     case "raftThickness":
-      return [least, settings.lift.trim() === "" ? usualSize("lift", strength) - gap_mm : most];
+      return [least, settings.lift.trim() === "" ? usualSize("lift", strength) - FACTS.raft_gap_mm : most];
     default:
       return [least, most];
   }
