@@ -245,7 +245,7 @@ impl Job {
         self.plate_mut(plate)?.write_file(encoded, writer, progress)
     }
 
-    /// Pieces of hollowed or supported models that would float in the vat, from the largest down: they begin with nothing below them.
+    /// Pieces of supported models that would float in the vat, from the largest down: they begin with nothing below them.
     ///
     /// # Errors
     /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.

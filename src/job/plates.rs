@@ -45,23 +45,24 @@ impl Plate {
         models.all(|model| model.sampled().bound().is_none())
     }
 
-    /// Pieces of a hollowed or supported model that would float in the vat, from the largest down. Without all hits in memory nothing is
+    /// Pieces of a supported model that would float in the vat, from the largest down. Without all hits in memory nothing is
     /// looked for.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
     pub fn floating(&mut self, progress: &mut Progress<'_>) -> Result<Vec<Finding>, Error> {
         let planned = Arc::clone(&self.planned);
-        let is_prepared = |model: &PlannedModel| model.sampled().is_prepared();
-        if !self.are_all_held() || !planned.models.iter().any(is_prepared) {
+        let is_supported = |model: &PlannedModel| model.sampled().is_supported();
+        if !self.are_all_held() || !planned.models.iter().any(is_supported) {
             return Ok(Vec::new());
         }
         let (masks, _) = self.seen()?;
         let all = planned.models.iter().zip(&masks.stamps);
-        let prepared: Vec<_> = all.filter(|(model, _)| is_prepared(model)).collect();
+        let supported: Vec<_> = all.filter(|(model, _)| is_supported(model)).collect();
         let mut found = Vec::new();
-        for (place, (_, stamp)) in prepared.iter().enumerate() {
-            let mut within = |fraction| progress((place as f64 + fraction) / prepared.len() as f64);
+        for (place, (_, stamp)) in supported.iter().enumerate() {
+            let mut within =
+                |fraction| progress((place as f64 + fraction) / supported.len() as f64);
             let floating = inspect::floating(&stamp.masks, &planned.plan, &mut within);
             found.extend(floating.map_err(LdiError::from)?);
         }

@@ -397,20 +397,7 @@ fn pieces_that_float_are_named_after_every_preparation() {
     assert_eq!(floating[0].code, Code::LooseBody);
     let ball_mm3 = 4.0 / 3.0 * std::f64::consts::PI * 64.0;
     assert_near(floating[0].volume_mm3, ball_mm3, 0.05 * ball_mm3);
-    // Hollowing is a preparation as well.
-    let hollow = Options {
-        hollow: Some(Hollowing {
-            wall_mm: 1.0,
-            ..Hollowing::default()
-        }),
-        supports: None,
-        ..options
-    };
-    plan(&mut slicer, &hollow);
-    let floating = slicer.floating(&mut quiet).unwrap();
-    assert_eq!(floating.len(), 1);
-    assert_eq!(floating[0].code, Code::LooseBody);
-    // With automatic supports nothing floats, and a model as it is in its file is not examined.
+    // With automatic supports nothing floats, and a model without supports is not examined.
     for options in [supported(), Options::default()] {
         let options = Options {
             pitch_mm: Some(0.1),

@@ -272,9 +272,9 @@ impl Sampled {
         &self.prepared.mesh
     }
 
-    /// Returns true if it is hollowed or has supports.
-    pub fn is_prepared(&self) -> bool {
-        self.prepared.hollowed.is_some() || self.prepared.supports.is_some()
+    /// Returns true if it has supports.
+    pub fn is_supported(&self) -> bool {
+        self.prepared.supports.is_some()
     }
 
     /// Returns true if it was sampled like this.
