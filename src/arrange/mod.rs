@@ -11,6 +11,8 @@ mod outline;
 mod shadow;
 mod sheet;
 
+use std::sync::Arc;
+
 use glam::DVec2;
 
 use crate::argsort::sort_by_number;
@@ -132,7 +134,7 @@ pub struct Item<'a, E> {
     /// Height of the model in millimetres.
     pub height_mm: f64,
     /// Its shadow after a number of turns of 15°.
-    pub outline: &'a (dyn Fn(u32) -> Result<Outline, E> + Sync),
+    pub outline: &'a (dyn Fn(u32) -> Result<Arc<Outline>, E> + Sync),
 }
 
 /// Place of a copy.
@@ -209,7 +211,7 @@ pub fn arrange<E: From<ArrangeError> + Send>(
 /// A model after some turns.
 struct Shape {
     turns: u32,
-    outline: Outline,
+    outline: Arc<Outline>,
     /// The cells that no other copy may cover.
     kept_free: outline::Cells,
     /// Cells by which `kept_free` begins before the outline.
@@ -217,7 +219,7 @@ struct Shape {
 }
 
 impl Shape {
-    fn new(turns: u32, outline: Outline, reach: &[usize]) -> Self {
+    fn new(turns: u32, outline: Arc<Outline>, reach: &[usize]) -> Self {
         Self {
             turns,
             kept_free: outline.cells.grown(reach),

@@ -203,6 +203,8 @@ pub(super) fn bits_at(row: &[u64], column: i64) -> u64 {
 
 #[cfg(test)]
 mod tests {
+    use std::sync::Arc;
+
     use super::*;
     use crate::arrange::Outline;
 
@@ -214,7 +216,7 @@ mod tests {
             area_mm2: 0.0,
             cells,
         };
-        Shape::new(0, outline, &[0])
+        Shape::new(0, Arc::new(outline), &[0])
     }
 
     #[test]

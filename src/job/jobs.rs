@@ -18,8 +18,8 @@ pub struct Job {
     pub(super) sampler: Sampler,
     /// Limits of memory and time, if any.
     pub(super) memory: Option<Memory>,
-    /// The models with their voids and supports, if they get some: before turns, in the order of models.
-    pub(super) prepared: Vec<Option<Arc<Prepared>>>,
+    /// The models with their voids and supports, before turns, in the order of models.
+    pub(super) prepared: Vec<Arc<Prepared>>,
     pub(super) shapes: Vec<Shape>,
     pub(super) plates: Vec<Plate>,
     /// Set while a plate of several is planned again by itself.

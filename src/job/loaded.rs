@@ -89,21 +89,20 @@ impl LoadedModel {
     pub fn info(&self) -> MeshInfo {
         let mut info = MeshInfo::of(&self.mesh);
         info.unit = self.facts.unit;
-        info.warnings
-            .extend(self.file_warnings(&Options::default()));
+        info.warnings.extend(self.file_warnings(Pose::default()));
         info
     }
 
-    /// Warnings about the file, given these options.
-    pub(super) fn file_warnings(&self, options: &Options) -> Vec<Warning> {
+    /// Warnings about the file, given the pose that options ask for.
+    pub(super) fn file_warnings(&self, asked: Pose) -> Vec<Warning> {
         let objects = self.facts.skipped_objects;
         let skipped = (objects > 0).then_some(Warning::SkippedObjects { objects });
-        let is_open = self.facts.unit.or(options.unit).is_none() && options.height_mm.is_none();
+        let is_open = self.facts.unit.or(asked.unit).is_none() && asked.height_mm.is_none();
         let odd = is_open.then(|| odd_size(&self.mesh)).flatten();
         let stated = self
             .facts
             .unit
-            .zip(options.unit)
+            .zip(asked.unit)
             .filter(|(stated, given)| stated != given);
         let ignored = stated.map(|(stated, given)| Warning::UnitStated { stated, given });
         let parts = self.facts.parts.iter().map(|part| match part.kind {

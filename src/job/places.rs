@@ -1,17 +1,13 @@
 //! Places of the copies on plates.
 
-use std::sync::Arc;
-
+use super::shapes::Upright;
 use super::stages::parts::{Raster, Resolved, Sampling};
-use super::stages::planned::PlannedModel;
-use super::stages::prepared::Prepared;
 use super::{Error, Job, JobOptions, ModelOptions, Options, Placement, Timings};
 use crate::argsort::sort_by_number;
 use crate::arrange::{
-    ArrangeError, Item, Outline, Place, PlacedOutline, Screen, TURN_DEG, arrange, problems,
-    shadow_mm2,
+    ArrangeError, Item, Place, PlacedOutline, Screen, TURN_DEG, arrange, problems,
 };
-use crate::model::{Mesh, Pose, TURNS};
+use crate::model::{Pose, TURNS};
 use crate::parallel;
 
 /// Places of copies, before anything is sampled.
@@ -43,63 +39,6 @@ impl Layout {
     }
 }
 
-/// Size of a model, before turns about z.
-#[derive(Debug, Clone)]
-pub(super) struct Extent {
-    /// In x, y and z.
-    pub size_mm: [f64; 3],
-    /// Its shadow on the plate, in cells.
-    pub shadow: Outline,
-}
-
-/// A model in its pose before turns.
-pub(super) struct Posed<'a> {
-    mesh: &'a Mesh,
-    pose: Pose,
-    /// With its supports, if it has some.
-    prepared: Option<&'a Arc<Prepared>>,
-}
-
-impl Posed<'_> {
-    /// Hands what stands on the plate after turns to `see`.
-    fn seen<T>(&self, turns: u32, see: impl Fn(&Mesh) -> T) -> Result<T, Error> {
-        Ok(match self.prepared {
-            Some(prepared) => see(&prepared.turned(turns)?.mesh),
-            None => see(&self.mesh.on_plate(&self.pose.turned(turns))?),
-        })
-    }
-
-    /// The true area of its shadow.
-    pub fn shadow_mm2(&self) -> Result<f64, Error> {
-        self.seen(0, shadow_mm2)
-    }
-
-    /// Its extent in x, y and z, which one of its turns knows if it is none.
-    pub fn size_mm(&self, turned: &[PlannedModel]) -> Result<[f64; 3], Error> {
-        let size_of = |mesh: &Mesh| self.sized(mesh);
-        match turned.iter().find(|it| it.turns == 0) {
-            Some(upright) => Ok(size_of(upright.sampled().mesh())),
-            None => self.seen(0, size_of),
-        }
-    }
-
-    fn sized(&self, mesh: &Mesh) -> [f64; 3] {
-        let size = mesh.bounds().size();
-        [size.x, size.y, self.pose.height_mm.unwrap_or(size.z)]
-    }
-
-    fn outline(&self, turns: u32, screen: &Screen) -> Result<Outline, Error> {
-        self.seen(turns, |mesh| Outline::of(mesh, screen))
-    }
-
-    fn extent(&self, screen: &Screen) -> Result<Extent, Error> {
-        self.seen(0, |mesh| Extent {
-            size_mm: self.sized(mesh),
-            shadow: Outline::of(mesh, screen),
-        })
-    }
-}
-
 impl Job {
     /// Arranges copies: on the fewest plates, then the lowest. Returns their places.
     ///
@@ -110,8 +49,7 @@ impl Job {
         let resolved = options.options.resolve()?;
         let screen = screen_of(&resolved.sampling)?;
         self.prepare_silently(options, &resolved)?;
-        let extents = self.extents(options, &resolved, &screen)?;
-        let places = self.arranged(options, &resolved, &screen, &extents)?;
+        let places = self.arranged(options, &resolved, &screen)?;
         Ok(places
             .iter()
             .map(|place| placement(Some(&screen), place))
@@ -123,25 +61,20 @@ impl Job {
         options: &JobOptions,
         resolved: &Resolved,
         screen: &Screen,
-        extents: &[Extent],
     ) -> Result<Vec<Place>, Error> {
         if self.models.is_empty() {
             return Err(ArrangeError::Empty.into());
         }
-        let outline_of = |(model, extent): (usize, &Extent)| {
-            let posed = self.posed(options, resolved, model);
-            let shadow = extent.shadow.clone();
-            move |turns| match turns {
-                0 => Ok(shadow.clone()),
-                _ => posed.outline(turns, screen),
-            }
+        let outline_of = |model| {
+            let upright = self.upright(options, resolved, model);
+            move |turns| upright.outline(turns, screen)
         };
-        let outlines: Vec<_> = extents.iter().enumerate().map(outline_of).collect();
-        let items = outlines.iter().zip(extents).enumerate();
+        let outlines: Vec<_> = (0..self.models.len()).map(outline_of).collect();
+        let items = outlines.iter().enumerate();
         let items: Vec<_> = items
-            .map(|(model, (outline, extent))| Item {
+            .map(|(model, outline)| Item {
                 copies: options.of_model(model).copies,
-                height_mm: extent.size_mm[2],
+                height_mm: self.size_mm(options, resolved, model)[2],
                 outline,
             })
             .collect();
@@ -151,35 +84,21 @@ impl Job {
         arrange(screen, &options.arranging, &items)
     }
 
-    /// The extent of each model and of its shadow.
-    pub(super) fn extents(
+    /// The extent of a prepared model in x, y and z, before turns.
+    pub(super) fn size_mm(
         &self,
         options: &JobOptions,
         resolved: &Resolved,
-        screen: &Screen,
-    ) -> Result<Vec<Extent>, Error> {
-        let posed = (0..self.models.len()).map(|model| self.posed(options, resolved, model));
-        parallel::map(posed.collect(), |posed: Posed<'_>| posed.extent(screen))
-            .into_iter()
-            .collect()
+        model: usize,
+    ) -> [f64; 3] {
+        let size = self.prepared[model].surface.size();
+        let asked_mm = self.pose_of(options, resolved, model).height_mm;
+        [size.x, size.y, asked_mm.unwrap_or(size.z)]
     }
 
     fn prepare_silently(&mut self, options: &JobOptions, resolved: &Resolved) -> Result<(), Error> {
         let mut silent = |_, _| std::ops::ControlFlow::Continue(());
         self.prepare(options, resolved, &mut Timings::default(), &mut silent)
-    }
-
-    pub(super) fn posed(
-        &self,
-        options: &JobOptions,
-        resolved: &Resolved,
-        model: usize,
-    ) -> Posed<'_> {
-        Posed {
-            mesh: &self.models[model].mesh,
-            pose: self.pose_of(options, resolved, model),
-            prepared: self.prepared.get(model).and_then(Option::as_ref),
-        }
     }
 
     /// The sampling of a model, after turns.
@@ -265,12 +184,13 @@ impl Job {
     ) -> Result<Vec<ArrangeError>, Error> {
         let pixels = screen.by_pixels();
         let kinds = kinds(places);
-        let turned = kinds
+        let standing = kinds
             .iter()
-            .map(|&(model, turns)| (self.posed(options, resolved, model), turns));
-        let outlines = parallel::map(turned.collect(), |(posed, turns): (Posed<'_>, u32)| {
-            posed.outline(turns, &pixels)
-        });
+            .map(|&(model, turns)| (self.upright(options, resolved, model), turns));
+        let outlines = parallel::map(
+            standing.collect(),
+            |(upright, turns): (Upright<'_>, u32)| upright.outline(turns, &pixels),
+        );
         let outlines = outlines.into_iter().collect::<Result<Vec<_>, _>>()?;
         let mut found = Vec::new();
         for on_plate in places.chunk_by(|a, b| a.plate == b.plate) {

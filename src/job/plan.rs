@@ -11,14 +11,12 @@ use super::resolve::check_prepared;
 use super::stages::measured::Shape;
 use super::stages::parts::{Layering, Resolved, Target};
 use super::stages::planned::{Planned, PlannedModel};
-use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress, ms_since, report as tell};
 #[cfg(not(target_arch = "wasm32"))]
 use super::stages::work;
 use super::{Error, Job, JobOptions, JobReport, Options, OptionsError, Placement, Report, Timings};
 use crate::arrange::{ArrangeError, Place};
 use crate::plan::HeightRange;
-use crate::progress::silent;
 
 impl Job {
     /// Arranges the copies, unless placements are given or there is only one, which stands in the middle, and plans the layers of each
@@ -47,7 +45,9 @@ impl Job {
             let clock = Instant::now();
             let (models, offsets) = self.standing(options, &layout, on_plate);
             let layering = layering_of(options, &layout, &models);
-            let upright = self.upright(options, &layout, &models)?;
+            let upright = models.chunk_by(|a, b| a.model == b.model);
+            let upright = upright.map(|of| (of[0].model, Arc::clone(&self.prepared[of[0].model])));
+            let upright = upright.collect();
             let known = last.iter_mut().chain(&mut self.plates);
             let kept = known
                 .map(|it| (&it.planned, &it.offsets, &mut it.seen, it.is_held))
@@ -70,7 +70,7 @@ impl Job {
             };
             timings.sum_up();
             let number = [number, count];
-            let report = self.report_of_plate(options, &layout, number, &planned, &timings)?;
+            let report = self.report_of_plate(options, &layout, number, &planned, &timings);
             self.plates.push(Plate {
                 offsets,
                 upright,
@@ -137,8 +137,7 @@ impl Job {
         self.prepare(options, &resolved, timings, progress)?;
         let clock = Instant::now();
         let places = if options.placements.is_empty() {
-            let extents = self.extents(options, &resolved, &screen)?;
-            self.arranged(options, &resolved, &screen, &extents)?
+            self.arranged(options, &resolved, &screen)?
         } else {
             let places = self.places(&screen, &options.placements)?;
             let problems = self.problems_of(options, &resolved, &screen, &places)?;
@@ -165,7 +164,7 @@ impl Job {
         [plate, plate_count]: [usize; 2],
         planned: &Planned,
         timings: &Timings,
-    ) -> Result<Report, Error> {
+    ) -> Report {
         let on_plate = layout.plates().nth(plate).unwrap_or_default();
         let first = &self.models[planned.models[0].model];
         let states_unit = layout.is_alone && first.facts.unit.is_some();
@@ -176,41 +175,14 @@ impl Job {
             },
             plate,
             plate_count,
-            models: self.shares(options, layout, planned)?,
+            models: self.shares(options, layout, planned),
             placements: on_plate
                 .iter()
                 .map(|place| placement(layout.screen.as_ref(), place))
                 .collect(),
         };
         let output = &layout.resolved.output;
-        Ok(report_of(planned, output, origin, timings.clone()))
-    }
-
-    /// Each model of a plate before turns.
-    fn upright(
-        &self,
-        options: &JobOptions,
-        layout: &Layout,
-        models: &[PlannedModel],
-    ) -> Result<Vec<(usize, Arc<Prepared>)>, Error> {
-        let of_model = |turned: &[PlannedModel]| {
-            let model = turned[0].model;
-            let upright = turned.iter().find(|it| it.turns == 0);
-            let prepared = match (upright, &self.prepared[model]) {
-                (Some(upright), _) => Arc::clone(&upright.sampled().prepared),
-                (None, Some(prepared)) => Arc::clone(prepared),
-                (None, None) => {
-                    let sampling = self.sampling_of(options, &layout.resolved, model, 0);
-                    let (mesh, mut timings) = (&self.models[model].mesh, Timings::default());
-                    let prepared =
-                        Prepared::new(mesh, &sampling, None, None, &mut timings, &mut silent);
-                    Arc::new(prepared?)
-                }
-            };
-            Ok((model, prepared))
-        };
-        let models = models.chunk_by(|a, b| a.model == b.model);
-        models.map(of_model).collect()
+        report_of(planned, output, origin, timings.clone())
     }
 
     /// The report of the last plan.

@@ -7,11 +7,13 @@ use web_time::Instant;
 use super::places::{Layout, kinds};
 use super::stages::measured::{Measured, Shape};
 use super::stages::memory::Memory;
-use super::stages::parts::{Layering, Resolved, Sampling};
+use super::stages::parts::{Resolved, Sampling};
 use super::stages::planned::Planned;
 use super::stages::prepared::{PREPARING_SHARE, Prepared};
 use super::stages::stage::{Stage, StageProgress, ms_since, report};
 use super::{Error, Job, JobOptions, Timings};
+use crate::arrange::{Outline, Screen};
+use crate::model::Mesh;
 use crate::parallel;
 use crate::progress::{Progress, silent};
 
@@ -22,8 +24,49 @@ struct Wanted {
     sampling: Sampling,
 }
 
+/// A prepared model, before turns.
+pub(super) struct Upright<'a> {
+    model: usize,
+    mesh: &'a Mesh,
+    sampling: Sampling,
+    prepared: &'a Arc<Prepared>,
+    /// Shapes of the job, some of which may be this model's.
+    shapes: &'a [Shape],
+}
+
+impl Upright<'_> {
+    /// The model after some turns. One that a shape has is not made again.
+    pub fn turned(&self, turns: u32) -> Result<Arc<Prepared>, Error> {
+        if turns == 0 {
+            return Ok(Arc::clone(self.prepared));
+        }
+        let sampling = Sampling {
+            pose: self.sampling.pose.turned(turns),
+            ..self.sampling.clone()
+        };
+        let of_model = self.shapes.iter().filter(|it| it.model == self.model);
+        let mut known = of_model.map(|shape| &shape.sampled.prepared);
+        if let Some(known) = known.find(|it| it.is_turned(self.prepared, &sampling)) {
+            return Ok(Arc::clone(known));
+        }
+        let made = if Prepared::takes_time(&sampling) {
+            self.prepared.turned(turns)
+        } else {
+            // Turned once, its vertices are rounded once.
+            let mut timings = Timings::default();
+            Prepared::new(self.mesh, &sampling, None, None, &mut timings, &mut silent)
+        };
+        Ok(Arc::new(made?))
+    }
+
+    /// Its shadow on a plate after some turns.
+    pub fn outline(&self, turns: u32, screen: &Screen) -> Result<Arc<Outline>, Error> {
+        Ok(self.turned(turns)?.outline(screen))
+    }
+}
+
 impl Job {
-    /// Prepares the models that get voids or supports.
+    /// Poses the models, and adds voids and supports.
     pub(super) fn prepare(
         &mut self,
         options: &JobOptions,
@@ -31,31 +74,48 @@ impl Job {
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
-        let kept = std::mem::take(&mut self.prepared);
+        let mut kept = std::mem::take(&mut self.prepared).into_iter();
         let count = self.models.len() as f64;
         for model in 0..self.models.len() {
+            let last = kept.next();
             let sampling = self.sampling_of(options, resolved, model, 0);
-            if !Prepared::takes_time(&sampling) {
-                self.prepared.push(None);
-                continue;
-            }
             let mut within = |stage, fraction| progress(stage, (model as f64 + fraction) / count);
-            let weights = self.models[model].layering_weights(&resolved.layering, &mut within)?;
+            let weights = if Prepared::takes_time(&sampling) {
+                self.models[model].layering_weights(&resolved.layering, &mut within)?
+            } else {
+                None
+            };
             let protected = sampling.protected(weights.as_deref());
-            let prepared = match kept.get(model).and_then(Option::as_ref) {
-                Some(known) if known.is_of(&sampling, protected) => Arc::clone(known),
+            let prepared = match last {
+                Some(known) if known.is_of(&sampling, protected) => known,
                 last => {
                     let mesh = &self.models[model].mesh;
-                    let last = last.map(AsRef::as_ref);
                     let mut within = |fraction| within(Stage::Ldi, PREPARING_SHARE * fraction);
+                    let last = last.as_deref();
                     let made =
                         Prepared::new(mesh, &sampling, protected, last, timings, &mut within);
                     Arc::new(made?)
                 }
             };
-            self.prepared.push(Some(prepared));
+            self.prepared.push(prepared);
         }
         Ok(())
+    }
+
+    /// A prepared model, before turns.
+    pub(super) fn upright(
+        &self,
+        options: &JobOptions,
+        resolved: &Resolved,
+        model: usize,
+    ) -> Upright<'_> {
+        Upright {
+            model,
+            mesh: &self.models[model].mesh,
+            sampling: self.sampling_of(options, resolved, model, 0),
+            prepared: &self.prepared[model],
+            shapes: &self.shapes,
+        }
     }
 
     /// The models and turns in which copies stand.
@@ -95,8 +155,7 @@ impl Job {
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
         let layering = &layout.resolved.layering;
-        let wanted = self.wanted(options, layout);
-        let weights = self.sample(wanted, layering, timings, progress).await?;
+        let weights = self.sample(options, layout, timings, progress).await?;
         report(progress, Stage::Profile, 0.0)?;
         let clock = Instant::now();
         let known = |shape: &Shape| shape.measured.clone();
@@ -131,16 +190,14 @@ impl Job {
     /// Samples each model in each of its turns, in order: each uses all cores by itself. Returns the weights of their facets.
     async fn sample(
         &mut self,
-        wanted: Vec<Wanted>,
-        layering: &Layering,
+        options: &JobOptions,
+        layout: &Layout,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<Vec<Option<Vec<f32>>>, Error> {
-        let posed: Vec<(usize, Arc<Prepared>)> = self
-            .shapes
-            .iter()
-            .map(|shape| (shape.model, Arc::clone(&shape.sampled.prepared)))
-            .collect();
+        let (resolved, wanted) = (&layout.resolved, self.wanted(options, layout));
+        let turned = |it: &Wanted| self.upright(options, resolved, it.model).turned(it.turns);
+        let prepared = wanted.iter().map(turned).collect::<Result<Vec<_>, _>>()?;
         // Old rays are freed before new ones are sampled.
         self.shapes.retain(|shape| {
             let mut alike = wanted.iter();
@@ -153,14 +210,14 @@ impl Job {
         }
         let count = wanted.len() as f64;
         let mut all_weights = Vec::with_capacity(wanted.len());
-        for (number, it) in wanted.into_iter().enumerate() {
+        for (number, (it, prepared)) in wanted.into_iter().zip(prepared).enumerate() {
             let Wanted {
                 model,
                 turns,
                 sampling,
             } = it;
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
-            let weights = self.models[model].layering_weights(layering, &mut within)?;
+            let weights = self.models[model].layering_weights(&resolved.layering, &mut within)?;
             let protected = sampling.protected(weights.as_deref());
             let known = kept.iter().position(|shape| {
                 shape.model == model && shape.sampled.is_of(&sampling, protected)
@@ -168,20 +225,10 @@ impl Job {
             let shape = if let Some(known) = known {
                 kept.swap_remove(known)
             } else {
-                let mut begun = 0.0;
-                let mut alike = posed.iter().filter(|it| it.0 == model);
-                let alike = alike.find(|(_, posed)| posed.is_of(&sampling, protected));
-                let prepared = if let Some(prepared) = &self.prepared[model] {
-                    begun = PREPARING_SHARE;
-                    prepared.turned(turns)?
-                } else if let Some((_, posed)) = alike {
-                    Arc::clone(posed)
+                let begun = if Prepared::takes_time(&sampling) {
+                    PREPARING_SHARE
                 } else {
-                    let mesh = &self.models[model].mesh;
-                    let last = None;
-                    let posed =
-                        Prepared::new(mesh, &sampling, protected, last, timings, &mut silent);
-                    Arc::new(posed?)
+                    0.0
                 };
                 let mut within = |fraction| within(Stage::Ldi, begun + (1.0 - begun) * fraction);
                 let sampled = self

@@ -4,21 +4,18 @@ use super::places::Layout;
 use super::stages::planned::{Planned, PlannedModel};
 use super::stages::planning::Planning;
 use super::stages::prepared::Supported;
-use super::{Error, Job, JobOptions, ModelOptions, ModelReport};
+use super::{Job, JobOptions, ModelOptions, ModelReport};
 use crate::plan::Plan;
 use crate::resin::Resin;
 
 impl Job {
     /// The models of a plate, each with its share of the plan.
-    ///
-    /// # Errors
-    /// [`Error::Mesh`].
     pub(super) fn shares(
         &self,
         options: &JobOptions,
         layout: &Layout,
         planned: &Planned,
-    ) -> Result<Vec<ModelReport>, Error> {
+    ) -> Vec<ModelReport> {
         let by_model = || planned.models.chunk_by(|a, b| a.model == b.model);
         let is_shared = by_model().count() > 1;
         let mut models = Vec::new();
@@ -28,14 +25,14 @@ impl Job {
             let loaded = &self.models[model];
             let copies = turned.iter().map(|it| it.copies).sum();
             let sampled = turned[0].sampled();
-            let prepared = match &self.prepared[model] {
-                Some(upright) => upright,
-                None => &sampled.prepared,
-            };
-            let posed = self.posed(options, &layout.resolved, model);
+            let prepared = &self.prepared[model];
             sharers.push(Sharer {
                 height_mm: sampled.height_mm,
-                shadow_mm2: if is_shared { posed.shadow_mm2()? } else { 1.0 },
+                shadow_mm2: if is_shared {
+                    prepared.shadow_mm2()
+                } else {
+                    1.0
+                },
                 copies,
             });
             let has_own_tolerance = turned.iter().any(|it| it.tolerance.is_some());
@@ -49,7 +46,9 @@ impl Job {
                 let findings = &planned.findings;
                 [findings.max_error, findings.max_deviation_mm]
             };
-            let mut warnings = loaded.file_warnings(&layout.shared);
+            let asked = options.of_model(model);
+            let asked = asked.pose_over(layout.resolved.sampling.pose);
+            let mut warnings = loaded.file_warnings(asked);
             for warning in &sampled.warnings {
                 if !warnings.contains(warning) {
                     warnings.push(warning.clone());
@@ -65,7 +64,7 @@ impl Job {
                 },
                 weights_crc32: loaded.weights_crc32(),
                 copies,
-                size_mm: posed.size_mm(turned)?,
+                size_mm: self.size_mm(options, &layout.resolved, model),
                 facets: sampled.mesh().surface_facets,
                 hits: turned
                     .iter()
@@ -88,7 +87,7 @@ impl Job {
         for (model, share_s) in models.iter_mut().zip(shares_s) {
             model.print_time_s = share_s;
         }
-        Ok(models)
+        models
     }
 }
 

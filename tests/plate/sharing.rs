@@ -6,6 +6,7 @@ use cusp_slicer::arrange::shadow_mm2;
 use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement};
 use cusp_slicer::plan::PlanError;
 use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::warning::Warning;
 use glam::Vec3;
 
 use super::{job, options, plan, plate};
@@ -329,6 +330,20 @@ fn height_ranges_of_models_are_joined() {
     options.models[1].ranges = vec![range(3.0, 6.0, 0.12, 0.15)];
     let refused = plan(&mut both, &options).unwrap_err();
     assert_eq!(refused.code(), "layer-range-upside-down");
+}
+
+#[test]
+fn a_model_with_a_height_of_its_own_has_no_odd_size() {
+    let tiny = solids::cube(0.5);
+    let mut options = job(options(), &[2]);
+    let is_odd = |options: &JobOptions| {
+        let report = plan(&mut plate(&[&tiny]), options).unwrap();
+        let mut warnings = report.plates[0].models[0].warnings.iter();
+        warnings.any(|it| matches!(it, Warning::OddSize { .. }))
+    };
+    assert!(is_odd(&options));
+    options.models[0].height_mm = Some(5.0);
+    assert!(!is_odd(&options));
 }
 
 #[test]

@@ -1,6 +1,6 @@
 //! A model on the plate with its voids and supports, ready to be sampled. It does not depend on pixels.
 
-use std::sync::Arc;
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
 
 use glam::DVec3;
 use serde::Serialize;
@@ -8,6 +8,7 @@ use web_time::Instant;
 
 use super::parts::Sampling;
 use super::stage::ms_since;
+use crate::arrange::{Outline, Screen, shadow_mm2};
 use crate::grid::{Grid, GridError};
 use crate::job::report::mesh_warnings;
 use crate::job::{Error, Timings};
@@ -24,6 +25,8 @@ use crate::warning::Warning;
 pub struct Prepared {
     of: Preparing,
     pub mesh: Mesh,
+    /// The box of its surface, without supports.
+    pub surface: Bounds,
     /// The box of all that is printed.
     pub printed: Bounds,
     /// Its void, if it is hollowed.
@@ -33,6 +36,15 @@ pub struct Prepared {
     pub warnings: Vec<Warning>,
     /// The hollow model without its supports, if it has both: a change of supports hollows nothing again.
     unsupported: Option<Arc<Unsupported>>,
+    shadow: Shadow,
+}
+
+/// Results about its shadow on the plate, once they were asked for.
+#[derive(Debug, Default)]
+struct Shadow {
+    area_mm2: OnceLock<f64>,
+    /// The last two: one is in cells for arranging, the other in pixels for checks of places.
+    outlines: Mutex<Vec<(Screen, Arc<Outline>)>>,
 }
 
 /// A model on the plate with its void, before it is supported.
@@ -100,8 +112,8 @@ pub struct Supported {
 pub const PREPARING_SHARE: f64 = 0.5;
 
 impl Prepared {
-    /// Poses the model, and adds voids and supports. Nothing is done for a model that does not fit. The void is that of `last`, if that
-    /// is hollowed alike.
+    /// Poses the model, and adds voids and supports unless it does not fit the printer. The void is that of `last`, if that is hollowed
+    /// alike.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
@@ -159,12 +171,14 @@ impl Prepared {
                 wider_mm: sampling.wider_mm,
                 protected: protected.map(<[f32]>::to_vec),
             },
+            surface: mesh.bounds(),
             printed: mesh.printed_bounds(),
             mesh,
             hollowed,
             supports,
             warnings,
             unsupported: kept,
+            shadow: Shadow::default(),
         })
     }
 
@@ -199,10 +213,7 @@ impl Prepared {
     ///
     /// # Errors
     /// [`Error::Mesh`].
-    pub fn turned(self: &Arc<Self>, turns: u32) -> Result<Arc<Self>, Error> {
-        if turns == 0 {
-            return Ok(Arc::clone(self));
-        }
+    pub fn turned(&self, turns: u32) -> Result<Self, Error> {
         let turn = Pose::default().turned(turns);
         let mut mesh = self.mesh.on_plate(&turn)?;
         mesh.lift(self.lift_mm());
@@ -211,18 +222,45 @@ impl Prepared {
         let [before, after] = [&self.mesh, &mesh].map(|it| it.vertices[0].as_dvec3());
         let by = (after - rotation * before).with_z(0.0);
         let place = |at: [f64; 3]| (rotation * DVec3::from_array(at) + by).to_array();
-        Ok(Arc::new(Self {
+        Ok(Self {
             of: Preparing {
                 pose: self.of.pose.turned(turns),
                 ..self.of.clone()
             },
+            surface: mesh.bounds(),
             printed: mesh.printed_bounds(),
             mesh,
             hollowed: self.hollowed.as_ref().map(|it| it.moved(place)),
             supports: self.supports.as_ref().map(|it| it.moved(place)),
             warnings: self.warnings.clone(),
             unsupported: None,
-        }))
+            shadow: Shadow::default(),
+        })
+    }
+
+    /// The true area of its shadow.
+    pub fn shadow_mm2(&self) -> f64 {
+        *self.shadow.area_mm2.get_or_init(|| shadow_mm2(&self.mesh))
+    }
+
+    /// Its shadow on a plate.
+    pub fn outline(&self, screen: &Screen) -> Arc<Outline> {
+        let outlines = self.shadow.outlines.lock();
+        let mut outlines = outlines.unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, known)) = outlines.iter().find(|(of, _)| of == screen) {
+            return Arc::clone(known);
+        }
+        let outline = Arc::new(Outline::of(&self.mesh, screen));
+        if outlines.len() == 2 {
+            outlines.remove(0);
+        }
+        outlines.push((*screen, Arc::clone(&outline)));
+        outline
+    }
+
+    /// Returns true if it is `upright` made with these options, which may turn it.
+    pub fn is_turned(&self, upright: &Self, sampling: &Sampling) -> bool {
+        self.is_of(sampling, upright.of.protected.as_deref())
     }
 
     /// Returns true if it is what [`Prepared::new`] would make.
@@ -251,7 +289,7 @@ impl Prepared {
     /// # Errors
     /// [`GridError`], also if the model or its supports do not fit the printer.
     pub fn grid(&self, sampling: &Sampling) -> Result<Grid, GridError> {
-        let mut model = self.mesh.bounds();
+        let mut model = self.surface;
         let lift = DVec3::new(0.0, 0.0, self.lift_mm());
         (model.min, model.max) = (model.min - lift, model.max - lift);
         let grid = sampling.grid(&model, self.lift_mm())?;
@@ -277,7 +315,9 @@ impl Unsupported {
             (sampling.supports.is_some() && !model.own_tips().is_empty()).then(|| model.bare());
         let mut mesh = bare.as_ref().unwrap_or(model).on_plate(&sampling.pose)?;
         mesh.widen_supports(sampling.wider_mm);
-        sampling.grid(&mesh.bounds(), sampling.lift_mm(&mesh))?;
+        if Prepared::takes_time(sampling) {
+            sampling.grid(&mesh.bounds(), sampling.lift_mm(&mesh))?;
+        }
         timings.load += ms_since(clock);
         let clock = Instant::now();
         let mut warnings = mesh_warnings(&mesh);

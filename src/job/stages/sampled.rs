@@ -184,7 +184,7 @@ impl Sampler {
         let supports = prepared.supports.as_ref();
         let supported = supports.map(|supports| Supported::of(supports, survey.support_mm3));
         Ok(Sampled {
-            height_mm: sampling.height_mm(mesh.bounds().size().z, prepared.lift_mm()),
+            height_mm: sampling.height_mm(prepared.surface.size().z, prepared.lift_mm()),
             sampling: sampling.clone(),
             prepared,
             grid,
