@@ -35,7 +35,8 @@
 //!
 //! # Modules, in pipeline order
 //! [`model`] reads, welds and poses a mesh; [`ldi`] samples it; [`profile`] and [`plan`] find the layers; [`mask`] images them;
-//! [`inspect`] finds what will fail; [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the stages.
+//! [`inspect`] finds what will fail; [`archive`] writes the print file; [`orientation`] searches for the way up. [`job`] resolves [`Options`] and runs the
+//! stages. On it stand [`calibration`]'s test prints, [`convert`]'s print files, [`project`] files and the [`facts`] that the page reads.
 //! [`format`](mod@format), [`filament`], [`printer`], [`resin`], [`quantity`] and [`grid`] are data that the others look things up in;
 //! [`price`] is what an order costs.
 //!
@@ -90,6 +91,11 @@ pub mod contour;
 pub mod orientation;
 
 pub mod job;
+
+pub mod calibration;
+pub mod convert;
+pub mod facts;
+pub mod project;
 #[cfg(all(feature = "cli", not(target_arch = "wasm32")))]
 pub mod simulation;
 

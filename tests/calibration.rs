@@ -4,8 +4,9 @@ use std::io::{Cursor, Read};
 
 use crate::common::quiet;
 use cusp_slicer::Error;
+use cusp_slicer::calibration::Calibration;
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Calibration, Options, Report};
+use cusp_slicer::job::{Options, Report};
 use serde_json::Value;
 use zip::ZipArchive;
 

@@ -1,12 +1,13 @@
 //! Print-through: depths in closed form, doses against a naive sum, masks measured as pixels, and prints measured by simulation.
 
 use cusp_slicer::archive::read::PrintFile;
+use cusp_slicer::calibration::Calibration;
 use cusp_slicer::cure::{Bridge, Cure, LitRange, fit};
 use cusp_slicer::format::Format;
 use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
-    Backend, Calibration, Job, JobOptions, ModelOptions, Options, Placement, Planner, Report, Snap,
+    Backend, Job, JobOptions, ModelOptions, Options, Placement, Planner, Report, Snap,
 };
 use cusp_slicer::prepare::{Hollowing, SupportProfile, Supporting};
 use cusp_slicer::profile::Metric;

@@ -5,13 +5,14 @@ use crate::common::Slicer;
 #[cfg(target_arch = "wasm32")]
 use crate::common::shifted_grid;
 use crate::common::{binary_stl, fingerprint, on_plate, quiet, solids};
+use cusp_slicer::calibration::Calibration;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
 use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
-use cusp_slicer::job::{Backend, Calibration, Minimize, Options, Planner};
+use cusp_slicer::job::{Backend, Minimize, Options, Planner};
 use cusp_slicer::ldi::cpu;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::ldi::{

@@ -4,8 +4,8 @@ use std::io::{Cursor, Write};
 use std::ops::Range;
 
 use cusp_slicer::archive::read::{Inspection, PrintFile, inspect_masks, surface};
+use cusp_slicer::convert::{Conversion, Target};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Conversion, Target};
 use cusp_slicer::model::read::read;
 use cusp_slicer::model::{Mesh, weights as facet_weights};
 use cusp_slicer::progress::silent;

@@ -481,7 +481,7 @@ impl JobOptions {
     }
 
     /// The options of a model by its index. If it is the only one, they say all that its own say.
-    pub(super) fn of_model(&self, model: usize) -> ModelOptions {
+    pub(crate) fn of_model(&self, model: usize) -> ModelOptions {
         self.models.get(model).cloned().unwrap_or_default()
     }
 

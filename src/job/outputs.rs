@@ -8,11 +8,9 @@ use serde::Serialize;
 
 use super::loaded::{positions, positions_of};
 use super::plates::{LayerGroups, Plate};
-use super::stages::planned::PlannedModel;
-use super::stages::planning::Planning;
 use super::stages::prepared::Prepared;
-use super::stages::stage::{Stage, StageProgress, report};
-use super::{Error, Job, JobOptions, Report, Tradeoff};
+use super::stages::stage::{Stage, StageProgress};
+use super::{Error, Job, Report};
 use crate::arrange::{self, ArrangeError, TURN_DEG};
 use crate::inspect::{self, Finding, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
@@ -179,28 +177,8 @@ impl Job {
         Ok(masks.whole(cursors, layer))
     }
 
-    /// The best plans of a plate for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
-    /// Models with a tolerance of their own are held to it in proportion. The last plan is kept.
-    ///
-    /// # Errors
-    /// Those of [`Self::plan`].
-    pub async fn tradeoff(
-        &mut self,
-        plate: usize,
-        options: &JobOptions,
-        points: usize,
-        progress: &mut StageProgress<'_>,
-    ) -> Result<Tradeoff, Error> {
-        let (models, layering) = self.measured_plate(plate, options, progress).await?;
-        report(progress, Stage::Plan, 0.0)?;
-        let parts = models.iter().map(PlannedModel::part).collect();
-        let points = Planning::new(parts, &layering).tradeoff(points)?;
-        report(progress, Stage::Plan, 1.0)?;
-        Ok(Tradeoff { points })
-    }
-
     /// Gives the layers of a plate exposures of their own, in seconds.
-    pub(super) fn expose(&mut self, plate: usize, exposure_s: Vec<f64>) -> Result<(), Error> {
+    pub(crate) fn expose(&mut self, plate: usize, exposure_s: Vec<f64>) -> Result<(), Error> {
         let report = &mut self.plate_mut(plate)?.report;
         report.print_time_s = report.resin.time_s(&exposure_s);
         report.exposure_s = exposure_s;

@@ -15,7 +15,7 @@ use super::stages::stage::{Stage, StageProgress, ms_since, report as tell};
 #[cfg(not(target_arch = "wasm32"))]
 use super::stages::work;
 use super::{Error, Job, JobOptions, JobReport, Options, OptionsError, Placement, Report, Timings};
-use crate::arrange::{ArrangeError, Place};
+use crate::arrange::Place;
 use crate::plan::HeightRange;
 
 impl Job {
@@ -197,7 +197,7 @@ impl Job {
     }
 
     /// The models of a plate as its plan takes them, and the places of their copies.
-    fn standing(
+    pub(super) fn standing(
         &self,
         options: &JobOptions,
         layout: &Layout,
@@ -220,29 +220,6 @@ impl Job {
             (!offsets.is_empty()).then_some((model, offsets))
         };
         self.shapes.iter().filter_map(of).unzip()
-    }
-
-    /// The models of a plate measured for these options, with its layering, to be planned in other ways than by [`Self::plan`]. The
-    /// last plan is kept.
-    pub(super) async fn measured_plate(
-        &mut self,
-        plate: usize,
-        options: &JobOptions,
-        progress: &mut StageProgress<'_>,
-    ) -> Result<(Vec<PlannedModel>, Layering), Error> {
-        let mut timings = Timings::default();
-        let layout = self.layout(options, &mut timings, progress)?;
-        let mut plates = layout.plates();
-        let count = plates.len();
-        let on_plate = plates.nth(plate).ok_or(ArrangeError::NoPlate {
-            plate_number: plate + 1,
-            plates: count,
-        })?;
-        self.measure(options, &layout, &mut timings, progress)
-            .await?;
-        let (models, _) = self.standing(options, &layout, on_plate);
-        let layering = layering_of(options, &layout, &models);
-        Ok((models, layering))
     }
 }
 
@@ -292,7 +269,11 @@ fn check_own_prepared(
 }
 
 /// The layering of a plate: that of the options, with the height ranges of the models on it and of what is below them all.
-fn layering_of(options: &JobOptions, layout: &Layout, models: &[PlannedModel]) -> Layering {
+pub(super) fn layering_of(
+    options: &JobOptions,
+    layout: &Layout,
+    models: &[PlannedModel],
+) -> Layering {
     let mut layering = layout.resolved.layering.clone();
     let limits = &mut layering.limits;
     let mut ranges = limits.ranges.clone();

@@ -399,7 +399,7 @@ impl Options {
 ///
 /// # Errors
 /// [`OptionsError::UnknownPrinter`], [`OptionsError::BadPrinter`].
-pub(super) fn find_printer(
+pub(crate) fn find_printer(
     choice: Option<&PrinterChoice>,
 ) -> Result<Option<Arc<Printer>>, OptionsError> {
     let printer = match choice {

@@ -4,8 +4,9 @@ use std::io::{Cursor, Write as _};
 use std::sync::Arc;
 
 use cusp_slicer::archive::read::{FileFinding, Preview, PrintFile, inspect};
+use cusp_slicer::convert::{Conversion, ConvertError, Loss, Target};
 use cusp_slicer::format::{Format, FormatThicknesses};
-use cusp_slicer::job::{Backend, Conversion, ConvertError, Loss, Options, Planner, Target};
+use cusp_slicer::job::{Backend, Options, Planner};
 use cusp_slicer::printer::{PRINTERS, Printer, PrinterChoice, format_of, named};
 use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;

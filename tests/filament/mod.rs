@@ -287,7 +287,7 @@ fn what_only_resin_printers_have_is_refused() {
     }
     for format in Format::FILAMENT {
         let (towers, code) = (
-            cusp_slicer::job::Calibration::layers(&options(format)),
+            cusp_slicer::calibration::Calibration::layers(&options(format)),
             "no-masks",
         );
         assert_eq!(towers.unwrap_err().code(), code);

@@ -4,13 +4,12 @@ use std::io::{self, BufWriter, Write};
 use std::ops::ControlFlow;
 
 use cusp_slicer::archive::{self, ArchiveError, Canvas};
+use cusp_slicer::calibration::Calibration;
 use cusp_slicer::cure::fit;
+use cusp_slicer::facts::Facts;
 use cusp_slicer::format::Format;
 use cusp_slicer::inspect::Limits;
-use cusp_slicer::job::{
-    self, Calibration, Error, Facts, JobOptions, LoadedModel, Options, OptionsError, Project,
-    ProjectPart, Stage,
-};
+use cusp_slicer::job::{self, Error, JobOptions, LoadedModel, Options, OptionsError, Stage};
 use cusp_slicer::mask::LayerRuns;
 use cusp_slicer::model::read::{self, HEAD_BYTES, ReadOptions};
 use cusp_slicer::model::{FacetClass, weights};
@@ -20,6 +19,7 @@ use cusp_slicer::plan::PlanError;
 use cusp_slicer::price::{PriceItem, Prices};
 use cusp_slicer::printer::PRINTERS;
 use cusp_slicer::profile::{Metric, Source};
+use cusp_slicer::project::{Project, ProjectPart};
 use cusp_slicer::resin::Resin;
 use js_sys::{Function, Uint8Array};
 use serde::de::DeserializeOwned;

@@ -4,8 +4,8 @@ use std::fmt::Write as _;
 use std::path::{Path, PathBuf};
 
 use clap::Subcommand;
+use cusp_slicer::calibration::Calibration;
 use cusp_slicer::cure::{Bridge, CureFit, FEWEST_BRIDGES, fit};
-use cusp_slicer::job::Calibration;
 use cusp_slicer::resin::PrintThrough;
 use serde::Serialize;
 

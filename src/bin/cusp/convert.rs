@@ -6,8 +6,8 @@ use clap::Args;
 use cusp_slicer::Warning;
 use cusp_slicer::archive::ArchiveError;
 use cusp_slicer::archive::read::{PrintFile, inspect};
+use cusp_slicer::convert::{Conversion, Loss, Target};
 use cusp_slicer::format::Format;
-use cusp_slicer::job::{Conversion, Loss, Target};
 use cusp_slicer::printer::format_of;
 use serde::Serialize;
 

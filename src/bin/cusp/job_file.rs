@@ -5,12 +5,11 @@ use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
 use cusp_slicer::arrange::Arranging;
-use cusp_slicer::job::{
-    JobOptions, LoadedModel, ModelOptions, Options, Placement, Project, ProjectModel, ProjectPart,
-};
+use cusp_slicer::job::{JobOptions, LoadedModel, ModelOptions, Options, Placement};
 use cusp_slicer::model::read::ReadOptions;
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{Hollowing, Supporting};
+use cusp_slicer::project::{Project, ProjectModel, ProjectPart};
 use serde::{Deserialize, Serialize};
 
 use crate::failure::{Failure, in_file, is_standard};

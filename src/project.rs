@@ -9,9 +9,9 @@ use std::io::Write;
 use glam::{DAffine3, DMat3, DVec3, Vec3};
 use serde::{Deserialize, Serialize};
 
-use super::{Error, JobOptions, OptionsError, Placement};
 use crate::archive::{ArchiveError, threemf};
 use crate::arrange::TURN_DEG;
+use crate::job::{Error, JobOptions, OptionsError, Placement};
 use crate::model::read::threemf::ThreeMfError;
 use crate::model::read::{self, ReadError, ReadOptions};
 use crate::model::{MeshError, Pose, rotation_matrix, weld};

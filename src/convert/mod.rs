@@ -8,13 +8,12 @@ use serde::Serialize;
 use serde_json::json;
 use settings::Exposures;
 
-use super::resolve::find_printer;
-use super::{OptionsError, SCHEMA};
 use crate::archive::read::{
     FileFinding, Flips, Inspection, Layer as LayerRead, Metadata, Preview, PrintFile,
 };
 use crate::archive::{self, ArchiveError, Layer, Manifest, PreviewScene, PrintJob, Screen};
 use crate::format::Format;
+use crate::job::{OptionsError, SCHEMA, find_printer};
 use crate::mask::{LEVELS, LayerRuns, Run, RunReader, RunSource};
 use crate::parallel;
 use crate::printer::{Printer, PrinterChoice};

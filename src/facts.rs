@@ -4,11 +4,12 @@ use std::collections::BTreeMap;
 
 use serde::Serialize;
 
-use super::{Calibration, Options};
 use crate::arrange::Arranging;
+use crate::calibration::Calibration;
 use crate::filament::{FilamentSlicer, LayerRule, NOZZLES_MM, USUAL_NOZZLE_MM};
 use crate::format::Format;
 use crate::inspect::Limits;
+use crate::job::Options;
 use crate::prepare::{
     AutoDrain, LEAST_GAP_MM, LEAST_WALL_MM, MOST_SUPPORT_MM, SupportProfile, SupportStrength,
 };

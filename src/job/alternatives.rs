@@ -1,10 +1,12 @@
-//! Planners side by side.
+//! Other plans of a plate: of other planners side by side, and of other tolerances.
 
-use super::stages::parts::Thicknesses;
+use super::plan::layering_of;
+use super::stages::parts::{Layering, Thicknesses};
 use super::stages::planned::PlannedModel;
 use super::stages::planning::Planning;
 use super::stages::stage::{Stage, StageProgress, report};
-use super::{Comparison, Error, Job, JobOptions, Planner, PlannerReport};
+use super::{Comparison, Error, Job, JobOptions, Planner, PlannerReport, Timings, Tradeoff};
+use crate::arrange::ArrangeError;
 use crate::progress::Progress;
 
 impl Job {
@@ -35,6 +37,49 @@ impl Job {
             unit: layering.metric.unit().to_owned(),
             rows,
         })
+    }
+
+    /// The best plans of a plate for `points` tolerances, from the smallest that a plan keeps to the largest that makes a difference.
+    /// Models with a tolerance of their own are held to it in proportion. The last plan is kept.
+    ///
+    /// # Errors
+    /// Those of [`Self::plan`].
+    pub async fn tradeoff(
+        &mut self,
+        plate: usize,
+        options: &JobOptions,
+        points: usize,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<Tradeoff, Error> {
+        let (models, layering) = self.measured_plate(plate, options, progress).await?;
+        report(progress, Stage::Plan, 0.0)?;
+        let parts = models.iter().map(PlannedModel::part).collect();
+        let points = Planning::new(parts, &layering).tradeoff(points)?;
+        report(progress, Stage::Plan, 1.0)?;
+        Ok(Tradeoff { points })
+    }
+
+    /// The models of a plate measured for these options, with its layering, to be planned in other ways than by [`Self::plan`]. The
+    /// last plan is kept.
+    pub(super) async fn measured_plate(
+        &mut self,
+        plate: usize,
+        options: &JobOptions,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(Vec<PlannedModel>, Layering), Error> {
+        let mut timings = Timings::default();
+        let layout = self.layout(options, &mut timings, progress)?;
+        let mut plates = layout.plates();
+        let count = plates.len();
+        let on_plate = plates.nth(plate).ok_or(ArrangeError::NoPlate {
+            plate_number: plate + 1,
+            plates: count,
+        })?;
+        self.measure(options, &layout, &mut timings, progress)
+            .await?;
+        let (models, _) = self.standing(options, &layout, on_plate);
+        let layering = layering_of(options, &layout, &models);
+        Ok((models, layering))
     }
 }
 

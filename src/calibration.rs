@@ -7,13 +7,13 @@ use std::sync::Arc;
 use glam::Vec3;
 use serde::Serialize;
 
-use super::stages::parts::Output;
-use super::stages::stage::StageProgress;
-use super::{Backend, Error, Job, JobOptions, LoadedModel, Options, Report, Snap};
 use crate::archive::ArchiveError;
 use crate::cure::Bridge;
 use crate::format::{Format, FormatThicknesses};
 use crate::growth::Growth;
+use crate::job::{
+    Backend, Error, Job, JobOptions, LoadedModel, Options, Output, Report, Snap, StageProgress,
+};
 use crate::plan::HeightRange;
 use crate::printer::{PrinterChoice, VariableLayers};
 use crate::quantity::Quantity;
