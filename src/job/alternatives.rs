@@ -68,7 +68,8 @@ impl Job {
         progress: &mut StageProgress<'_>,
     ) -> Result<(Vec<PlannedModel>, Layering), Error> {
         let mut timings = Timings::default();
-        let layout = self.layout(options, &mut timings, progress)?;
+        let is_alone = self.is_alone(options);
+        let layout = self.layout(options, is_alone, &mut timings, progress)?;
         let mut plates = layout.plates();
         let count = plates.len();
         let on_plate = plates.nth(plate).ok_or(ArrangeError::NoPlate {

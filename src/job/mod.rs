@@ -56,8 +56,6 @@ pub struct Job {
     prepared: Vec<Arc<Prepared>>,
     shapes: Vec<Shape>,
     plates: Vec<Plate>,
-    /// Set while a plate of several is planned again by itself.
-    is_of_several: bool,
 }
 
 impl Job {

@@ -30,9 +30,28 @@ impl Job {
         options: &JobOptions,
         progress: &mut StageProgress<'_>,
     ) -> Result<JobReport, Error> {
+        self.plan_as(options, self.is_alone(options), progress)
+            .await?;
+        Ok(self.report())
+    }
+
+    /// Returns true if a single copy of a single model stands in the middle: all options are its own.
+    pub(super) fn is_alone(&self, options: &JobOptions) -> bool {
+        self.models.len() == 1
+            && options.of_model(0).copies == 1
+            && matches!(&options.placements[..], [] | [Placement::MIDDLE])
+    }
+
+    /// [`Self::plan`] of a model alone, or of copies on plates.
+    pub(super) async fn plan_as(
+        &mut self,
+        options: &JobOptions,
+        is_alone: bool,
+        progress: &mut StageProgress<'_>,
+    ) -> Result<(), Error> {
         let mut last = std::mem::take(&mut self.plates);
         let mut timings = Timings::default();
-        let layout = self.layout(options, &mut timings, progress)?;
+        let layout = self.layout(options, is_alone, &mut timings, progress)?;
         // Old rays are freed before new ones are sampled.
         last.retain(|plate| self.is_wanted(options, &layout, &plate.planned));
         self.measure(options, &layout, &mut timings, progress)
@@ -85,21 +104,18 @@ impl Job {
         for model in &mut self.models {
             model.load_ms = 0.0;
         }
-        Ok(self.report())
+        Ok(())
     }
 
     /// Resolves the options, and finds where copies stand.
     pub(super) fn layout(
         &mut self,
         options: &JobOptions,
+        is_alone: bool,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<Layout, Error> {
         options.check()?;
-        let is_alone = !self.is_of_several
-            && self.models.len() == 1
-            && options.of_model(0).copies == 1
-            && matches!(&options.placements[..], [] | [Placement::MIDDLE]);
         let shared = if is_alone {
             options.alone()
         } else {

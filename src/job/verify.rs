@@ -400,11 +400,10 @@ impl Job {
         claimed: &ClaimedPlate,
         progress: &mut StageProgress<'_>,
     ) -> Result<&Report, Error> {
+        let job = claimed.job();
         // Alone on a plate of several, a model still has options of its own.
-        self.is_of_several = claimed.plate_count > 1;
-        let planned = self.plan(&claimed.job(), progress).await;
-        self.is_of_several = false;
-        planned?;
+        let is_alone = claimed.plate_count == 1 && self.is_alone(&job);
+        self.plan_as(&job, is_alone, progress).await?;
         let report = &mut self.plate_mut(0)?.report;
         (report.plate, report.plate_count) = (claimed.plate, claimed.plate_count);
         for place in &mut report.placements {

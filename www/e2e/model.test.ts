@@ -179,10 +179,14 @@ test("on a plate the walls are those of the selected model, which is seen alone 
   const toggle = page.getByRole("switch", { name: "Show wall thickness" });
   const view = page.locator("cusp-view");
   const copies = (): Promise<number> => view.evaluate((view: CuspView) => view.copies.length);
+  // Their findings are on the plate, where no model stands meanwhile.
+  const outlined = (): Promise<boolean> => view.evaluate((view: CuspView) => view.places.length > 0);
   await expect.poll(copies).toBe(2);
+  await expect.poll(outlined).toBe(true);
   await toggle.check();
   await page.locator("cusp-view .legend.walls").waitFor();
   expect(await copies()).toBe(0);
+  expect(await outlined()).toBe(false);
   const thinnest = (): Promise<number> => view.evaluate((view: CuspView) => Math.min(...(view.walls?.thickness_mm ?? [0])));
   const first_mm = await thinnest();
   await page.locator("cusp-plate button.name", { hasText: first_mm > 1 ? "thin.stl" : "thick.stl" }).click();

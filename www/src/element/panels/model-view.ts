@@ -201,6 +201,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
     const walls_mm = isEditing ? null : this.walls_mm;
     // Editing and wall thickness show the model alone, without its copies.
     const isPlate = this.copies.length > 0 && !isEditing && walls_mm === null;
+    // Findings are at places of the plate.
+    const hasFindings = isPlate || this.copies.length === 0;
     const isMeasured = this.look === "distance" && !isEditing && walls_mm === null;
     const isPrinted = isMeasured || (this.look === "printed" && !isEditing && walls_mm === null);
     // An aligned view shows the whole model from the side only, which rules out the printed look, painting, walls, supports and plates of
@@ -231,8 +233,8 @@ export class CuspModel extends elementWith(PROPERTIES) {
               .thickness_mm=${shown?.thickness_mm ?? []}
               .limits=${shown?.limits ?? [0, 0]}
               .layer=${shown === null || showsHeat || isPlacing || walls_mm !== null ? null : this.layer}
-              .marks=${this.marks}
-              .places=${isEditing ? NO_PLACES : this.places}
+              .marks=${hasFindings ? this.marks : NO_PLACES}
+              .places=${hasFindings && !isEditing ? this.places : NO_PLACES}
               .plate=${volumeOf(this.printer)}
               .look=${showsHeat ? "weights" : isEditing ? "thickness" : walls_mm === null ? this.look : "walls"}
               .wall_mm=${walls_mm ?? FACTS.limits.wall_mm}
