@@ -8,9 +8,9 @@ use glam::Vec3;
 use serde::Serialize;
 
 use crate::archive::ArchiveError;
+use crate::compensation::Compensation;
 use crate::cure::Bridge;
 use crate::format::{Format, FormatThicknesses};
-use crate::growth::Growth;
 use crate::job::{
     Backend, Error, Job, JobOptions, LoadedModel, Options, Output, Report, Snap, StageProgress,
 };
@@ -226,9 +226,9 @@ impl Calibration {
         let uncompensated = Options {
             resin: Resin {
                 print_through: None,
-                growth: Growth {
+                compensation: Compensation {
                     z_mm: 0.0,
-                    ..options.resin.growth
+                    ..options.resin.compensation
                 },
                 ..options.resin.clone()
             },

@@ -60,10 +60,10 @@ mod union_find;
 mod ways;
 mod xml;
 
+pub mod compensation;
 pub mod filament;
 pub mod format;
 pub mod grid;
-pub mod growth;
 pub mod price;
 pub mod printer;
 pub mod quantity;

@@ -4,9 +4,9 @@ use std::sync::{Arc, LazyLock};
 
 use serde::{Deserialize, Deserializer, Serialize, de};
 
+use crate::compensation::Compensation;
 use crate::format::{Format, FormatThicknesses};
 use crate::grid::MAX_SIDE;
-use crate::growth::Growth;
 
 /// A resin printer: its screen, its build volume and the file that it takes.
 #[derive(Debug, Clone, PartialEq, Serialize, Deserialize)]
@@ -66,9 +66,9 @@ pub struct Printer {
     /// Source of that statement.
     #[serde(default)]
     pub variable_layers_source: String,
-    /// Growth of prints beyond their masks, whatever the resin.
-    #[serde(default)]
-    pub growth: Growth,
+    /// Compensation for prints larger than their masks, whatever the resin.
+    #[serde(default, alias = "growth")]
+    pub compensation: Compensation,
     /// Pull of its film per area at a disc of 20 mm, in kPa, for supports whose sizes state none.
     #[serde(default)]
     pub film_kpa: Option<f64>,
@@ -155,7 +155,7 @@ impl Printer {
                 self.file_version
                     .is_none_or(|version| (516..=518).contains(&version)),
             ),
-            ("growth", self.growth.check().is_ok()),
+            ("compensation", self.compensation.check().is_ok()),
             (
                 "film_kpa",
                 self.film_kpa

@@ -201,11 +201,11 @@ pub enum QuantityError {
         /// The most; the least is 0.
         most_s: f64,
     },
-    /// A growth that no measurement can have found.
-    #[error("the growth of a print must be {least_mm} to {most_mm} mm, not {value_mm} mm")]
-    #[serde(rename = "bad-growth")]
-    BadGrowth {
-        /// The growth.
+    /// A compensation that no measurement can have found.
+    #[error("masks can compensate for {least_mm} to {most_mm} mm, not for {value_mm} mm")]
+    #[serde(rename = "bad-compensation")]
+    BadCompensation {
+        /// The distance.
         value_mm: f64,
         /// The least.
         least_mm: f64,

@@ -3,7 +3,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use crate::growth::Growth;
+use crate::compensation::Compensation;
 use crate::quantity::{Quantity, QuantityError};
 
 /// A resin on a printer.
@@ -41,9 +41,10 @@ pub struct Resin {
     pub return_mm_min: f64,
     /// Density of the cured resin, in grams per millilitre.
     pub density_g_ml: f64,
-    /// Growth of a print beyond its masks.
-    pub growth: Growth,
-    /// Cure below a layer, which masks and planes make up for in place of `growth.z_mm`. Absent: nothing does.
+    /// Compensation for prints larger than their masks.
+    #[serde(alias = "growth")]
+    pub compensation: Compensation,
+    /// Cure below a layer, which masks and planes make up for in place of `compensation.z_mm`. Absent: nothing does.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub print_through: Option<PrintThrough>,
 }
@@ -93,7 +94,7 @@ impl Default for Resin {
             lift_mm_min: 65.0,
             return_mm_min: 150.0,
             density_g_ml: 1.1,
-            growth: Growth::default(),
+            compensation: Compensation::default(),
             print_through: None,
         }
     }
@@ -121,7 +122,7 @@ impl Resin {
         for (quantity, value) in quantities.into_iter().chain(exposures) {
             quantity.check(value)?;
         }
-        self.growth.check()?;
+        self.compensation.check()?;
         if let Some(print_through) = &self.print_through {
             print_through.check()?;
         }

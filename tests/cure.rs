@@ -2,9 +2,9 @@
 
 use cusp_slicer::archive::read::PrintFile;
 use cusp_slicer::calibration::Calibration;
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::cure::{Bridge, Cure, LitRange, fit};
 use cusp_slicer::format::Format;
-use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
 use cusp_slicer::job::{
     Backend, Job, JobOptions, ModelOptions, Options, Placement, Planner, Report, Snap,
@@ -275,9 +275,9 @@ fn table() -> solids::Triangles {
 #[test]
 fn bottoms_rise_whatever_else_the_masks_do() {
     let plain = options(resin(0.0, 1.0));
-    let narrower = Growth {
+    let narrower = Compensation {
         xy_mm: 0.1,
-        ..Growth::default()
+        ..Compensation::default()
     };
     let variants = [
         ("alone", plain.clone()),
@@ -292,7 +292,7 @@ fn bottoms_rise_whatever_else_the_masks_do() {
             "narrower",
             Options {
                 resin: Resin {
-                    growth: narrower,
+                    compensation: narrower,
                     ..plain.resin.clone()
                 },
                 ..plain.clone()
@@ -303,7 +303,7 @@ fn bottoms_rise_whatever_else_the_masks_do() {
             Options {
                 antialias: 4,
                 resin: Resin {
-                    growth: narrower,
+                    compensation: narrower,
                     ..plain.resin.clone()
                 },
                 ..plain.clone()

@@ -2,7 +2,7 @@
 //! way out.
 
 use crate::common::Slicer;
-use cusp_slicer::growth::Growth;
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::inspect::{Code, Limits};
 use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Report};
 use cusp_slicer::prepare::{AutoDrain, Drain, Hollowing, Infill};
@@ -30,7 +30,7 @@ fn walls() -> solids::Triangles {
 }
 
 /// Layers and pixels of 0.1 mm.
-fn options(growth: Growth) -> Options {
+fn options(compensation: Compensation) -> Options {
     Options {
         pitch_mm: Some(0.1),
         layer_min_mm: Some(0.1),
@@ -39,7 +39,7 @@ fn options(growth: Growth) -> Options {
         backend: Backend::Cpu,
         resin: Resin {
             bottom_layers: 4,
-            growth,
+            compensation,
             ..Resin::default()
         },
         ..Options::default()
@@ -47,11 +47,11 @@ fn options(growth: Growth) -> Options {
 }
 
 /// An elephant's foot of 0.2 mm, which fades over ten layers.
-fn foot() -> Growth {
-    Growth {
+fn foot() -> Compensation {
+    Compensation {
         bottom_xy_mm: Some(0.2),
         faded_layers: 10,
-        ..Growth::default()
+        ..Compensation::default()
     }
 }
 
@@ -85,7 +85,7 @@ fn lit(slicer: &mut Slicer, layer: usize) -> u32 {
 #[test]
 fn a_wall_that_an_elephants_foot_erases_is_warned_of() {
     let mut model = load(&walls());
-    let solid = plan(&mut model, &options(Growth::default()));
+    let solid = plan(&mut model, &options(Compensation::default()));
     assert_eq!(erased(&solid), None);
     let plain: Vec<u32> = (0..solid.layers)
         .map(|layer| lit(&mut model, layer))
@@ -130,9 +130,9 @@ fn a_sheet_that_is_thinner_than_the_print_through_is_warned_of() {
         [[0.0, 0.0, 0.0], [3.0, 16.0, 10.0]],
         [[0.0, 0.0, 9.7], [18.0, 16.0, 10.0]],
     ]);
-    let through = |z_mm| Growth {
+    let through = |z_mm| Compensation {
         z_mm,
-        ..Growth::default()
+        ..Compensation::default()
     };
     let mut model = load(&sheet);
     let report = plan(&mut model, &options(through(0.3)));
@@ -146,17 +146,17 @@ fn a_sheet_that_is_thinner_than_the_print_through_is_warned_of() {
 
 #[test]
 fn balls_and_cylinders_lose_nothing_worth_a_word() {
-    let growth = Growth {
+    let compensation = Compensation {
         xy_mm: 0.1,
         z_mm: 0.1,
-        ..Growth::default()
+        ..Compensation::default()
     };
     for (name, triangles) in [
         ("ball", solids::sphere(8.0, 5)),
         ("cylinder", solids::cylinder(5.0, 10.0, 16)),
         ("frame", solids::frame()),
     ] {
-        let report = plan(&mut load(&triangles), &options(growth));
+        let report = plan(&mut load(&triangles), &options(compensation));
         assert_eq!(erased(&report), None, "{name}");
     }
 }
@@ -248,7 +248,7 @@ fn hollowed(hollowing: Hollowing) -> Options {
     Options {
         hollow: Some(hollowing),
         pitch_mm: Some(0.2),
-        ..options(Growth::default())
+        ..options(Compensation::default())
     }
 }
 
@@ -346,7 +346,10 @@ fn holes_lead_into_a_cavity_without_a_void() {
 fn a_body_that_no_ray_meets_is_warned_of() {
     let sheet = |x: f32, width: f32| [[x, 0.0, 0.0], [x + width, 10.0, 4.0]];
     let missed = |corners: &[[[f32; 3]; 2]]| {
-        let report = plan(&mut load(&boxes(corners)), &options(Growth::default()));
+        let report = plan(
+            &mut load(&boxes(corners)),
+            &options(Compensation::default()),
+        );
         report
             .all_warnings()
             .iter()

@@ -6,9 +6,9 @@ use crate::common::Slicer;
 use crate::common::shifted_grid;
 use crate::common::{binary_stl, fingerprint, on_plate, quiet, solids};
 use cusp_slicer::calibration::Calibration;
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::Grid;
-use cusp_slicer::growth::Growth;
 use cusp_slicer::inspect::Limits;
 #[cfg(target_arch = "wasm32")]
 use cusp_slicer::job::Stage;
@@ -162,7 +162,7 @@ fn the_directions_are_the_recorded_ones() {
     );
 }
 
-/// A print file for a printer of each format, anti-aliased, with masks that make up for growth; and one calibration print.
+/// A print file for a printer of each format, anti-aliased, with compensated masks; and one calibration print.
 async fn check_print_files() {
     let mut slicer = Slicer::load(&binary_stl(&model())).unwrap();
     let mut fingerprints = Vec::new();
@@ -183,7 +183,7 @@ async fn check_print_files() {
             antialias: 4,
             ..options()
         };
-        options.resin.growth = Growth {
+        options.resin.compensation = Compensation {
             xy_mm: 0.04,
             bottom_xy_mm: Some(0.1),
             faded_layers: 3,

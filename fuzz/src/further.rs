@@ -199,8 +199,8 @@ fn check_print_file(slicer: &mut Slicer, report: &Report, options: &Options) {
         let mask = file
             .mask(layer, metadata.flips())
             .expect("masks can be decoded");
-        let shrinks = !options.resin.growth.is_none();
-        if options.antialias > 1 || may_be_mirrored || shrinks {
+        let is_compensated = !options.resin.compensation.is_none();
+        if options.antialias > 1 || may_be_mirrored || is_compensated {
             continue;
         }
         let expected = slicer.mask(layer).expect("there is this layer");

@@ -1,8 +1,8 @@
 //! The whole path over any options and models: every input gives an error or a plan that keeps its promises
 //! (`promises.rs`).
 
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::format::Format;
-use cusp_slicer::growth::Growth;
 use cusp_slicer::job::{Backend, Minimize, Options, Planner, Snap};
 use cusp_slicer::plan::HeightRange;
 use cusp_slicer::prepare::{Hollowing, Supporting};
@@ -121,7 +121,7 @@ fn rest(input: &mut Input<'_>, options: &mut Options) {
         ..Resin::default()
     };
     if input.once_in(8) {
-        options.resin.growth = Growth {
+        options.resin.compensation = Compensation {
             xy_mm: input.of(&[0.05, -0.05, 0.2]),
             bottom_xy_mm: input.of(&[None, Some(0.1)]),
             faded_layers: usize::from(input.below(4)),

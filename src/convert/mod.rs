@@ -31,7 +31,7 @@ pub struct Target {
     pub printer: Option<PrinterChoice>,
     /// True if masks are mirrored left to right; as the printer has them if absent.
     pub mirror: Option<bool>,
-    /// A resin, whose exposures, rests and moves replace those of the file. Its growth does not count: masks stay as they are.
+    /// A resin, whose exposures, rests and moves replace those of the file. Its compensation does not count: masks stay as they are.
     pub resin: Option<Resin>,
 }
 

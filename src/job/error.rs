@@ -41,8 +41,8 @@ pub enum Error {
     #[error("there is no plan yet; make one first")]
     #[serde(rename = "no-plan")]
     NoPlan,
-    /// The job takes more memory than it may. Plans and print files need the least; checks, single masks and masks that make up
-    /// for growth need all hits.
+    /// The job takes more memory than it may. Plans and print files need the least; checks, single masks and compensated
+    /// masks need all hits.
     #[error(
         "this takes about {needed_bytes} bytes of memory, and {allowed_bytes} are allowed; allow more, or choose larger pixels"
     )]

@@ -159,7 +159,7 @@ pub struct Options {
     /// Anti-aliasing level, 1, 2, 4 or 8: the number of rays per pixel, and of heights per layer, over which grey is
     /// averaged. At 1, pixels are either lit or dark.
     pub antialias: u32,
-    /// The least width that compensation for the growth of prints in x and y leaves, measured along rows and columns of pixels;
+    /// The least width that compensation in x and y leaves, measured along rows and columns of pixels;
     /// narrower features are not changed. None if absent.
     #[serde(skip_serializing_if = "Option::is_none")]
     pub min_feature_mm: Option<f64>,

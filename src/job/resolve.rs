@@ -180,8 +180,8 @@ impl Options {
             saliency: self.saliency,
             weight_min: self.weight_min,
             resin: self.resin.clone(),
-            growth: printer.map_or(self.resin.growth, |printer| {
-                self.resin.growth.and(printer.growth)
+            compensation: printer.map_or(self.resin.compensation, |printer| {
+                self.resin.compensation.and(printer.compensation)
             }),
             min_feature_mm: self.min_feature_mm()?,
             greys: match (printer, &self.resin.print_through) {

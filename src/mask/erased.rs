@@ -1,16 +1,16 @@
 //! Parts of masks that compensation erases.
 //!
-//! Shrinking takes a rim away, and moving downward surfaces up takes away everything that is thinner than that
+//! Erosion takes a rim away, and moving downward surfaces up takes away everything that is thinner than that
 //! distance; the print grows back over it from the part that stays lit. A part that lies farther from all lit pixels of
-//! its layer is lost. Such parts are found as masks are shrunk, row by row, without a mask.
+//! its layer is lost. Such parts are found as masks are compensated, row by row, without a mask.
 
 use std::ops::Range;
 
+use super::compensated::{Compensated, Part, Rows};
 use super::entries::{Column, Raise};
 use super::samples::SublayerOf;
-use super::shrink::{Part, Rows, Shrink};
 use super::step::{Disc, Step, Stretch, without};
-use super::{Samples, Shrinking};
+use super::{Compensations, Samples};
 use crate::ldi::Ldi;
 use crate::parallel;
 use crate::plan::Plan;
@@ -32,7 +32,7 @@ const BAND_ROWS: usize = 256;
 /// The area of each layer that compensation erases, in square millimetres, up to the last layer of which it erases any; with several
 /// heights in a layer, the largest of theirs.
 ///
-/// Cost: nothing if nothing shrinks; otherwise that of masks, up to the last layer that shrinks.
+/// Cost: nothing without erosion; otherwise that of masks, up to the last layer that is eroded.
 ///
 /// # Errors
 /// [`Cancelled`].
@@ -40,23 +40,23 @@ pub(crate) fn erased_mm2(
     ldi: &Ldi,
     plan: &Plan,
     samples: Samples,
-    shrinking: &Shrinking,
+    compensations: &Compensations,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<f64>, Cancelled> {
     let sublayer_of = SublayerOf::new(plan, samples.sublayers);
-    let shrink = Shrink {
+    let compensated = Compensated {
         ldi,
         sublayer_of: &sublayer_of,
-        shrinking,
+        compensations,
         parts: samples.sublayers,
         rays: ldi.grid,
         offset: [0, 0],
     };
-    let steps = shrink.steps();
+    let steps = compensated.steps();
     let height = ldi.grid.height as usize;
     let rows = (0..height).step_by(BAND_ROWS);
     let rows: Vec<Range<usize>> = rows.map(|row| row..(row + BAND_ROWS).min(height)).collect();
-    let last = if takes_all_of_a_stretch(&shrink, &rows) {
+    let last = if takes_all_of_a_stretch(&compensated, &rows) {
         Some(steps.len() - 1)
     } else {
         steps.iter().rposition(Step::takes)
@@ -68,7 +68,7 @@ pub(crate) fn erased_mm2(
     let mut sums = vec![0; layers * samples.sublayers as usize];
     parallel::map_in_groups(
         rows.into_iter(),
-        |rows| erased(&shrink, &steps[..layers], rows),
+        |rows| erased(&compensated, &steps[..layers], rows),
         |counts| {
             for (sum, count) in sums.iter_mut().zip(counts) {
                 *sum += count;
@@ -91,11 +91,11 @@ pub(crate) fn erased_mm2(
 }
 
 /// Returns true if nothing is left of any stretch along a ray where surfaces that face down move up.
-fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
-    if raised_mm(shrink) == 0.0 {
+fn takes_all_of_a_stretch(compensated: &Compensated<'_>, bands: &[Range<usize>]) -> bool {
+    if raised_mm(compensated) == 0.0 {
         return false;
     }
-    let (ldi, entries) = (shrink.ldi, shrink.entries());
+    let (ldi, entries) = (compensated.ldi, compensated.entries());
     let width = ldi.grid.width as usize;
     let found = parallel::map(bands.to_vec(), |rows| {
         let mut found = false;
@@ -116,22 +116,26 @@ fn takes_all_of_a_stretch(shrink: &Shrink<'_>, bands: &[Range<usize>]) -> bool {
 }
 
 /// Distance by which all surfaces that face down move up. Where compensation follows the cure, a layer of each range stays lit.
-fn raised_mm(shrink: &Shrink<'_>) -> f64 {
-    match shrink.shrinking.raise {
+fn raised_mm(compensated: &Compensated<'_>) -> f64 {
+    match compensated.compensations.raise {
         Raise::By(distance_mm) => distance_mm,
         Raise::Cured { .. } => 0.0,
     }
 }
 
 /// The number of rays that are erased in a band of rows at each sublayer of some layers.
-fn erased(shrink: &Shrink<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
-    let reaches: Vec<Disc> = steps.iter().map(|step| reach_of(shrink, step)).collect();
+fn erased(compensated: &Compensated<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
+    let reaches: Vec<Disc> = steps
+        .iter()
+        .map(|step| reach_of(compensated, step))
+        .collect();
     let halo = reaches.iter().map(Disc::rows).max().unwrap_or(0) as usize;
-    let wide = rows.start.saturating_sub(halo)..(rows.end + halo).min(shrink.rays.height as usize);
-    let around = shrink.around(&wide, steps);
-    let mut source = Rows::new(shrink, around.clone(), Part::Raised);
-    let mut whole = Rows::new(shrink, around, Part::Whole);
-    let width = shrink.rays.width as i32;
+    let wide =
+        rows.start.saturating_sub(halo)..(rows.end + halo).min(compensated.rays.height as usize);
+    let around = compensated.around(&wide, steps);
+    let mut source = Rows::new(compensated, around.clone(), Part::Raised);
+    let mut whole = Rows::new(compensated, around, Part::Whole);
+    let width = compensated.rays.width as i32;
     let mut lit: Vec<Vec<Stretch>> = vec![Vec::new(); wide.len()];
     let mut of_rows = vec![0; rows.len()];
     let mut last_step = None;
@@ -139,8 +143,8 @@ fn erased(shrink: &Shrink<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
     for (layer, step) in steps.iter().enumerate() {
         let is_new_step = last_step != Some(step);
         last_step = Some(step);
-        for part in 0..shrink.parts {
-            let sublayer = layer as u32 * shrink.parts + part;
+        for part in 0..compensated.parts {
+            let sublayer = layer as u32 * compensated.parts + part;
             let mut changed = source.advance(sublayer);
             let is_all_new = is_new_step && part == 0;
             for (lit, row) in lit.iter_mut().zip(wide.clone()) {
@@ -163,9 +167,9 @@ fn erased(shrink: &Shrink<'_>, steps: &[Step], rows: Range<usize>) -> Vec<u64> {
 }
 
 /// The disc that what stays lit is grown by.
-fn reach_of(shrink: &Shrink<'_>, step: &Step) -> Disc {
-    let reach_mm = REACH_XY * step.taken_mm() + REACH_Z * raised_mm(shrink);
-    Disc::new(reach_mm, &shrink.rays)
+fn reach_of(compensated: &Compensated<'_>, step: &Step) -> Disc {
+    let reach_mm = REACH_XY * step.taken_mm() + REACH_Z * raised_mm(compensated);
+    Disc::new(reach_mm, &compensated.rays)
 }
 
 /// Returns true if a row is within a reach of any of some.

@@ -5,13 +5,13 @@
 //! long as the list of hits. No mask is computed from scratch, and only one is in memory at a time.
 
 mod columns;
+mod compensated;
 mod entries;
 mod erased;
 mod plate;
 mod print_through;
 mod runs;
 mod samples;
-mod shrink;
 mod slabs;
 mod step;
 mod window;
@@ -19,6 +19,7 @@ mod window;
 use std::ops::Range;
 
 pub(crate) use columns::Until;
+pub use compensated::Compensations;
 pub use entries::Raise;
 pub(crate) use erased::erased_mm2;
 pub use plate::{PlateMasks, PlateReadPlace, PlateRuns, Stamp};
@@ -26,7 +27,6 @@ pub(crate) use print_through::print_through;
 pub use print_through::{BottomErrors, PrintThroughReport};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
-pub use shrink::Shrinking;
 pub use slabs::SlabMasks;
 pub use window::{Side, Window};
 
@@ -34,9 +34,9 @@ use crate::grid::Grid;
 use crate::ldi::{Ldi, Solid};
 use crate::parallel;
 use crate::plan::Plan;
+use compensated::Compensated;
 use entries::{Column, Entries, LitRanges};
 use samples::SublayerOf;
-use shrink::Shrink;
 use window::Place;
 
 /// The masks of all layers of a plan.
@@ -111,41 +111,41 @@ impl Masks {
         })
     }
 
-    /// The masks of a plan that make up for the growth of the print.
+    /// The masks of a plan that make up for prints larger than they.
     ///
-    /// Cost: linear in the lit stretches of the rows of all layers, times the rows that the growth spans.
-    pub fn shrunk(
+    /// Cost: linear in the lit stretches of the rows of all layers, times the rows that the compensation spans.
+    pub fn compensated(
         ldi: &Ldi,
         plan: &Plan,
         grid: &Grid,
         samples: Samples,
         side: Side,
-        shrinking: &Shrinking,
+        compensations: &Compensations,
     ) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
-        if shrinking.xy_mm.iter().all(|&mm| mm == 0.0) {
+        if compensations.xy_mm.iter().all(|&mm| mm == 0.0) {
             let entries = Entries {
                 sublayer_of: &sublayer_of,
                 parts: samples.sublayers,
-                raise: &shrinking.raise,
+                raise: &compensations.raise,
             };
             return Self::of_rays(ldi, plan, grid, samples, side, &entries);
         }
         let all_rays = grid.refined(samples.rays());
-        let rays = all_rays.extended(&ldi.grid, shrink::margin(shrinking, &ldi.grid));
+        let rays = all_rays.extended(&ldi.grid, compensated::margin(compensations, &ldi.grid));
         let offset = rays.offset_of(&ldi.grid);
         let place = Place::new(&rays, grid, samples, side);
-        let shrink = Shrink {
+        let compensated = Compensated {
             ldi,
             sublayer_of: &sublayer_of,
-            shrinking,
+            compensations,
             parts: samples.sublayers,
             rays,
             offset,
         };
         Self::of_bands(plan, grid, samples, &place, |rows, changes| {
             let pixel_of = |row: usize, column: usize| place.rows[row] + place.columns[column];
-            shrink.changes(rows, pixel_of, |change| changes.push(change));
+            compensated.changes(rows, pixel_of, |change| changes.push(change));
         })
     }
 

@@ -1,8 +1,8 @@
-//! Shrinking and growing of the lit stretches of a row of rays.
+//! Erosion and dilation of the lit stretches of a row of rays.
 
 use std::ops::Range;
 
-use super::shrink::Rows;
+use super::compensated::Rows;
 use crate::grid::Grid;
 
 /// A lit stretch of a row of rays.
@@ -47,20 +47,20 @@ impl Disc {
     }
 }
 
-/// The shrinking or growing of a layer.
+/// The erosion or dilation of a layer.
 #[derive(Debug, Clone, PartialEq)]
 pub(super) struct Step {
-    /// Distance on each side, in millimetres; negative if it grows.
+    /// Distance on each side, in millimetres; negative for dilation.
     mm: f64,
     disc: Disc,
-    /// The least width that shrinking leaves, in columns and in rows.
+    /// The least width that erosion leaves, in columns and in rows.
     least: Option<[i32; 2]>,
     /// Sides of a pixel.
     pitch_mm: [f64; 2],
 }
 
 impl Step {
-    /// Shrinks by `mm` on each side, and leaves a least width; 0 for none.
+    /// Erosion by `mm` on each side, and leaves a least width; 0 for none.
     pub fn new(mm: f64, least_mm: f64, grid: &Grid) -> Self {
         let pitch_mm = [grid.pitch_mm, grid.pitch_y_mm];
         let pixels = |pitch_mm: f64| (least_mm / pitch_mm * (1.0 - ROUNDING)).ceil() as i32;
@@ -78,7 +78,7 @@ impl Step {
         narrow.max(self.disc.rows())
     }
 
-    /// The number of columns and of rows from which on shrinking leaves the least width anyway, if that holds.
+    /// The number of columns and of rows from which on erosion leaves the least width anyway, if that holds.
     fn narrow(&self) -> Option<[i32; 2]> {
         let [columns, rows] = self.least.filter(|_| self.takes())?;
         let [across, along] = [self.disc.half_width(0), self.disc.rows()];
@@ -104,13 +104,13 @@ impl Step {
         if self.grows() {
             return grown(source, &self.disc, row, width);
         }
-        let shrunk = shrunk(source, &self.disc, row);
+        let eroded = eroded(source, &self.disc, row);
         match (self.least, self.narrow()) {
             (Some(least), Some(narrow)) => {
-                let kept = self.kept(source, row, &shrunk, least, narrow);
-                union(&shrunk, kept.into_iter())
+                let kept = self.kept(source, row, &eroded, least, narrow);
+                union(&eroded, kept.into_iter())
             }
-            _ => shrunk,
+            _ => eroded,
         }
     }
 
@@ -120,13 +120,13 @@ impl Step {
         &self,
         source: &Rows,
         row: i32,
-        shrunk: &[Stretch],
+        eroded: &[Stretch],
         least: [i32; 2],
         narrow: [i32; 2],
     ) -> Vec<Stretch> {
         let mut kept: Vec<Stretch> = Vec::new();
         for stretch in source.row(row) {
-            let taken = without(std::slice::from_ref(stretch), shrunk, 0);
+            let taken = without(std::slice::from_ref(stretch), eroded, 0);
             for column in taken.into_iter().flatten() {
                 let in_row = [column - stretch.start, stretch.end - 1 - column];
                 let in_column = [-1, 1].map(|step| {
@@ -170,7 +170,7 @@ fn disc_rows(disc: &Disc, row: i32) -> impl Iterator<Item = (i32, i32)> {
         .map(move |step| (row + step, disc.half_widths[step.unsigned_abs() as usize]))
 }
 
-fn shrunk(source: &Rows, disc: &Disc, row: i32) -> Vec<Stretch> {
+fn eroded(source: &Rows, disc: &Disc, row: i32) -> Vec<Stretch> {
     let mut result: Option<Vec<Stretch>> = None;
     for (row, half_width) in disc_rows(disc, row) {
         let shorter = source.row(row).iter().filter_map(|stretch| {

@@ -2,9 +2,9 @@
 
 use crate::common::Slicer;
 use cusp_slicer::Error;
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::growth::Growth;
 use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Planner, Report, Work};
 use cusp_slicer::ldi::visibility::visibility;
 use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
@@ -184,9 +184,9 @@ fn a_plate_of_models_and_copies_is_the_same() {
 fn what_takes_all_hits_says_how_much_that_is() {
     let options = Options {
         resin: Resin {
-            growth: Growth {
+            compensation: Compensation {
                 xy_mm: 0.05,
-                ..Growth::default()
+                ..Compensation::default()
             },
             ..Resin::default()
         },

@@ -1,7 +1,7 @@
 //! Surfaces that would fail in the vat: shelves close together, ceilings of voids, and mouths of drain holes.
 
 use crate::common::{assert_near, load, quiet, solids};
-use cusp_slicer::growth::Growth;
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::inspect::{Code, Limits, Printability};
 use cusp_slicer::job::Supported;
 use cusp_slicer::job::{Options, Report};
@@ -355,9 +355,9 @@ fn tips_stay_as_wide_as_asked_when_masks_shrink() {
             ..Supporting::default()
         }),
         resin: Resin {
-            growth: Growth {
+            compensation: Compensation {
                 xy_mm,
-                ..Growth::default()
+                ..Compensation::default()
             },
             ..Resin::default()
         },

@@ -105,7 +105,7 @@ pub struct Target {
     format: Option<Format>,
     #[arg(long, value_name = "MM", value_parser = length, help = nozzle_help(), help_heading = "Printer")]
     nozzle: Option<f64>,
-    /// Resin, as a JSON file: exposures, bottom layers, lift, growth
+    /// Resin, as a JSON file: exposures, bottom layers, lift, compensation
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
     /// Least width that compensation in x and y leaves; narrower features are not changed

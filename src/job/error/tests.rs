@@ -119,7 +119,7 @@ fn quantity_errors() -> Vec<QuantityError> {
         },
         BadTime { quantity: Quantity::Wait, value_s: -1.5, most_s: 1e5 },
         BadExposures { previous_mm: 0.1, next_mm: 0.05 },
-        BadGrowth { value_mm: 2.5, least_mm: -1.0, most_mm: 1.0 },
+        BadCompensation { value_mm: 2.5, least_mm: -1.0, most_mm: 1.0 },
     )
 }
 

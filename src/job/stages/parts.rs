@@ -4,10 +4,10 @@ use std::sync::Arc;
 
 use glam::DVec2;
 
+use crate::compensation::Compensation;
 use crate::filament::FilamentSlicer;
 use crate::format::Format;
 use crate::grid::{Bins, Grid, GridError};
-use crate::growth::Growth;
 use crate::job::{Backend, GpuMethod, Minimize, Planner};
 use crate::mask::{Samples, Side};
 use crate::model::{Bounds, Mesh, Pose};
@@ -73,8 +73,8 @@ pub(crate) struct Layering {
     pub saliency: bool,
     pub weight_min: f64,
     pub resin: Resin,
-    /// Growth of the print beyond its masks: that of the resin and the printer together.
-    pub growth: Growth,
+    /// Compensation for the resin and the printer together.
+    pub compensation: Compensation,
     /// The least width that making up for it leaves; 0 for none.
     pub min_feature_mm: f64,
     /// Steps of brightness that put cured bottoms between those of layers: anti-aliased masks on a printer whose greys cure in proportion, of
@@ -143,7 +143,7 @@ impl Layering {
     /// [`Sampling::wider_mm`] of a model with or without supports.
     pub fn support_wider_mm(&self, has_supports: bool) -> f64 {
         if has_supports {
-            self.growth.xy_mm.max(0.0)
+            self.compensation.xy_mm.max(0.0)
         } else {
             0.0
         }

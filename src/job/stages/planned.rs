@@ -11,7 +11,7 @@ use crate::cure::Cure;
 use crate::job::Error;
 use crate::ldi::LdiError;
 use crate::mask::{
-    Masks, PrintThroughReport, Raise, RunSource, Shrinking, Side, SlabMasks, erased_mm2,
+    Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks, erased_mm2,
     print_through,
 };
 use crate::plan::Plan;
@@ -66,7 +66,7 @@ pub struct Planned {
     pub plan: Plan,
     pub findings: Findings,
     /// Compensations in the masks, if there are any.
-    shrinking: Option<Shrinking>,
+    compensations: Option<Compensations>,
     /// Errors of surfaces that face down, if the resin states its print-through.
     pub print_through: Option<PrintThroughReport>,
 }
@@ -83,7 +83,8 @@ impl Planned {
     ) -> Result<Self, Error> {
         let parts = models.iter().map(PlannedModel::part).collect();
         let mut planning = Planning::new(parts, layering);
-        let compensates = !layering.growth.is_none() || layering.resin.print_through.is_some();
+        let compensates =
+            !layering.compensation.is_none() || layering.resin.print_through.is_some();
         let share = if compensates { 0.5 } else { 1.0 };
         let mut plan = planning.plan(&mut |fraction| progress(share * fraction))?;
         // Planes move with the doses of the plan, and the plan with the planes.
@@ -97,7 +98,7 @@ impl Planned {
         let mut planned = Self {
             findings: planning.findings(&plan)?,
             models,
-            shrinking: shrinking(&plan, layering),
+            compensations: compensations(&plan, layering),
             layering: layering.clone(),
             plan,
             print_through: None,
@@ -120,7 +121,7 @@ impl Planned {
         &self,
         progress: &mut Progress<'_>,
     ) -> Result<Option<PrintThroughReport>, Cancelled> {
-        let Some(Shrinking { raise, .. }) = &self.shrinking else {
+        let Some(Compensations { raise, .. }) = &self.compensations else {
             return Ok(None);
         };
         let others = Cure::within(&self.plan, &self.layering.resin);
@@ -154,10 +155,10 @@ impl Planned {
         Ok(all)
     }
 
-    /// The warning about what compensation erases. Without an LDI there are no masks that make up for growth,
+    /// The warning about what compensation erases. Without an LDI there are no compensated masks,
     /// and nothing is known.
     fn erased(&self, progress: &mut Progress<'_>) -> Result<Option<Warning>, Cancelled> {
-        let Some(shrinking) = &self.shrinking else {
+        let Some(compensations) = &self.compensations else {
             return Ok(None);
         };
         let mut of_layers_mm2 = vec![0.0; self.plan.layers()];
@@ -168,7 +169,7 @@ impl Planned {
             };
             let samples = model.sampled().sampling.samples;
             let mut within = |fraction| progress(share * (place as f64 + fraction));
-            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, shrinking, &mut within)?;
+            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, compensations, &mut within)?;
             for (sum_mm2, area_mm2) in of_layers_mm2.iter_mut().zip(areas_mm2) {
                 *sum_mm2 += area_mm2 * model.copies as f64;
             }
@@ -216,16 +217,18 @@ impl Planned {
         let sampled = self.models[model].sampled();
         let Sampled { grid, sampling, .. } = sampled;
         let (ldi, samples) = (sampled.ldi()?, sampling.samples);
-        Ok(match &self.shrinking {
+        Ok(match &self.compensations {
             None => Masks::new(ldi, &self.plan, grid, samples, side),
-            Some(shrinking) => Masks::shrunk(ldi, &self.plan, grid, samples, side, shrinking),
+            Some(compensations) => {
+                Masks::compensated(ldi, &self.plan, grid, samples, side, compensations)
+            }
         })
     }
 
     /// The same to be read once, slab by slab if there is no LDI.
     ///
     /// # Errors
-    /// [`Error::MemoryBound`] if there is no LDI, and masks make up for growth, which takes it.
+    /// [`Error::MemoryBound`] if there is no LDI, and masks are compensated, which takes it.
     pub fn runs(&self, model: usize, side: Side) -> Result<Box<dyn RunSource + '_>, Error> {
         let sampled = self.models[model].sampled();
         let Sampled {
@@ -235,7 +238,7 @@ impl Planned {
             ..
         } = sampled;
         Ok(match sampled.bound() {
-            Some(Bound { slab_bytes, .. }) if self.shrinking.is_none() => {
+            Some(Bound { slab_bytes, .. }) if self.compensations.is_none() => {
                 let (mesh, samples) = (sampled.mesh(), sampling.samples);
                 let plan = &self.plan;
                 Box::new(SlabMasks::new(
@@ -248,15 +251,19 @@ impl Planned {
 }
 
 /// Compensations in the masks of a plan, if there are any.
-fn shrinking(plan: &Plan, layering: &Layering) -> Option<Shrinking> {
-    let Layering { growth, resin, .. } = layering;
+fn compensations(plan: &Plan, layering: &Layering) -> Option<Compensations> {
+    let Layering {
+        compensation,
+        resin,
+        ..
+    } = layering;
     let cure = Cure::of_plan(plan, resin);
-    if growth.is_none() && cure.is_none() {
+    if compensation.is_none() && cure.is_none() {
         return None;
     }
-    Some(Shrinking {
-        xy_mm: growth.of_layers_mm(plan.layers(), resin.bottom_layers),
-        raise: cure.map_or(Raise::By(growth.z_mm), |cure| Raise::Cured {
+    Some(Compensations {
+        xy_mm: compensation.of_layers_mm(plan.layers(), resin.bottom_layers),
+        raise: cure.map_or(Raise::By(compensation.z_mm), |cure| Raise::Cured {
             cure,
             greys: layering.greys,
         }),

@@ -27,7 +27,7 @@ const SHARED = {
   lift_mm: 5,
   lift_mm_min: 65,
   return_mm_min: 150,
-  growth: { xy_mm: 0, bottom_xy_mm: 0, faded_layers: 0, z_mm: 0 },
+  compensation: { xy_mm: 0, bottom_xy_mm: 0, faded_layers: 0, z_mm: 0 },
 };
 
 export const RESINS: readonly ShopResin[] = [

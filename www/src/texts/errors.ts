@@ -36,7 +36,7 @@ export const errors = {
   "bad-length": "{quantity|names.quantities} must be from {least|exact} to {most|measure}, not {value|measure}.",
   "bad-time": "{quantity|names.quantities} must be from 0 to {most_s|exact}\u00a0s, not {value_s|exact}\u00a0s.",
   "bad-exposures": "Measured exposures must be in order of thickness, each thicker than the one before, but {next_mm|mm} follows {previous_mm|mm}.",
-  "bad-growth": "The growth of a print must be {least_mm|exact} to {most_mm|mm}, not {value_mm|mm}.",
+  "bad-compensation": "Masks can compensate for {least_mm|exact} to {most_mm|mm}, not for {value_mm|mm}.",
   "bad-options": "The options cannot be read: {system|ended}",
   "unknown-printer": {
     none: "There is no printer {printer} among the {known|count} known ones.",

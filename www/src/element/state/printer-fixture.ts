@@ -16,7 +16,7 @@ export const knownPrinter = (patch: Partial<KnownPrinter> & Pick<KnownPrinter, "
   reads: ["ctb"],
   variable_layers: "untried",
   variable_layers_source: "",
-  growth: {},
+  compensation: {},
   proportional_greys: false,
   ...patch,
 });

@@ -77,7 +77,7 @@ const KINDS: Readonly<Record<ErrorCode, Kind>> = {
   "bad-size": "badValue",
   "bad-time": "badValue",
   "bad-exposures": "badValue",
-  "bad-growth": "badValue",
+  "bad-compensation": "badValue",
   "bad-directions": "badValue",
   "bad-alpha": "badValue",
   "bad-search-limit": "badValue",

@@ -1,13 +1,15 @@
-//! Masks that make up for the growth of prints: every pixel against a naive erosion, and sides of a cube in closed form.
+//! Masks that make up for prints larger than they: every pixel against a naive erosion, and sides of a cube in closed form.
 
 use crate::common::{on_plate, solids};
+use cusp_slicer::compensation::Compensation;
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::growth::Growth;
 use cusp_slicer::ldi::{Ldi, cpu};
-use cusp_slicer::mask::{Light, Masks, Raise, RunSource, Samples, Shrinking, Side};
+use cusp_slicer::mask::{Compensations, Light, Masks, Raise, RunSource, Samples, Side};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::plan::{Plan, uniform};
+use cusp_slicer::printer::{PRINTERS, Printer};
 use cusp_slicer::progress::silent;
+use cusp_slicer::resin::Resin;
 
 fn uniform_plan(height_mm: f64, layers: f64) -> Plan {
     let layer_mm = height_mm / layers;
@@ -52,7 +54,7 @@ fn naive(
     plan: &Plan,
     layer: usize,
     samples: Samples,
-    shrinking: &Shrinking,
+    compensations: &Compensations,
 ) -> Vec<u8> {
     let Grid {
         width,
@@ -62,7 +64,7 @@ fn naive(
         ..
     } = whole.grid;
     let (width, height) = (width as i32, height as i32);
-    let radius_mm = shrinking.xy_mm[layer];
+    let radius_mm = compensations.xy_mm[layer];
     let grows = radius_mm < 0.0;
     let reach = (radius_mm.abs() / pitch_mm.min(pitch_y_mm)) as i32 + 1;
     let columns = whole.grid.width / samples.columns;
@@ -70,7 +72,7 @@ fn naive(
     let mut counts = vec![0; (columns * rows) as usize];
     let middles = plan.middles_of_parts_mm(samples.sublayers);
     let parts = samples.sublayers as usize;
-    let Raise::By(z_mm) = shrinking.raise else {
+    let Raise::By(z_mm) = compensations.raise else {
         unreachable!()
     };
     for middle_mm in &middles[layer * parts..(layer + 1) * parts] {
@@ -134,7 +136,7 @@ fn every_pixel_agrees_with_a_naive_erosion() {
         let mesh = on_plate(&triangles);
         let size = mesh.bounds().size();
         let pitch_mm = size.x.max(size.y) / 23.0;
-        // Narrow compared with the model, so that growth meets the border of the screen.
+        // Narrow compared with the model, so that dilation meets the border of the screen.
         let grid = Grid::plate(&mesh.bounds(), [29, 33], [pitch_mm, pitch_mm * 0.9]).unwrap();
         let plan = uniform_plan(size.z, 7.0);
         for (level, xy, z) in [
@@ -146,21 +148,22 @@ fn every_pixel_agrees_with_a_naive_erosion() {
         ] {
             let samples = Samples::of_level(level).unwrap();
             let [ldi, whole] = rays(&mesh, &grid, samples);
-            let growth = Growth {
+            let compensation = Compensation {
                 xy_mm: xy * pitch_mm,
                 bottom_xy_mm: Some(2.4 * pitch_mm),
                 faded_layers: 2,
                 z_mm: z * size.z,
             };
-            let shrinking = Shrinking {
-                xy_mm: growth.of_layers_mm(plan.layers(), 2),
-                raise: Raise::By(growth.z_mm),
+            let compensations = Compensations {
+                xy_mm: compensation.of_layers_mm(plan.layers(), 2),
+                raise: Raise::By(compensation.z_mm),
                 least_mm: 0.0,
             };
-            let masks = Masks::shrunk(&ldi, &plan, &grid, samples, Side::Above, &shrinking);
+            let masks =
+                Masks::compensated(&ldi, &plan, &grid, samples, Side::Above, &compensations);
             let runs = masks.reader().next(plan.layers());
             for layer in 0..plan.layers() {
-                let expected = naive(&whole, &plan, layer, samples, &shrinking);
+                let expected = naive(&whole, &plan, layer, samples, &compensations);
                 assert_eq!(
                     found(&masks, layer),
                     expected,
@@ -182,23 +185,23 @@ fn every_pixel_agrees_with_a_naive_erosion() {
 }
 
 #[test]
-fn without_growth_nothing_changes() {
+fn without_compensation_nothing_changes() {
     for (name, triangles) in solids::all() {
         let mesh = on_plate(&triangles);
         let grid = Grid::around(&mesh.bounds(), 60).unwrap();
         let plan = uniform_plan(mesh.bounds().size().z, 9.0);
         let samples = Samples::of_level(2).unwrap();
         let [ldi, _] = rays(&mesh, &grid, samples);
-        let shrinking = Shrinking {
+        let compensations = Compensations {
             xy_mm: vec![0.0; plan.layers()],
             raise: Raise::By(0.0),
             least_mm: 0.0,
         };
         for side in [Side::Above, Side::Below] {
             let plain = Masks::new(&ldi, &plan, &grid, samples, side);
-            let shrunk = Masks::shrunk(&ldi, &plan, &grid, samples, side, &shrinking);
+            let compensated = Masks::compensated(&ldi, &plan, &grid, samples, side, &compensations);
             let all = |masks: &Masks| masks.reader().next(plan.layers());
-            assert_eq!(all(&plain), all(&shrunk), "{name}");
+            assert_eq!(all(&plain), all(&compensated), "{name}");
         }
     }
 }
@@ -210,18 +213,25 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
     let grid = Grid::plate(&mesh.bounds(), [200, 200], [0.1, 0.1]).unwrap();
     let plan = uniform_plan(10.0, 10.0);
     let [ldi, _] = rays(&mesh, &grid, Samples::ONE);
-    let growth = Growth {
+    let compensation = Compensation {
         xy_mm: 0.1,
         bottom_xy_mm: Some(0.5),
         faded_layers: 3,
         z_mm: 0.0,
     };
-    let shrinking = Shrinking {
-        xy_mm: growth.of_layers_mm(plan.layers(), 2),
+    let compensations = Compensations {
+        xy_mm: compensation.of_layers_mm(plan.layers(), 2),
         raise: Raise::By(0.0),
         least_mm: 0.0,
     };
-    let masks = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);
+    let masks = Masks::compensated(
+        &ldi,
+        &plan,
+        &grid,
+        Samples::ONE,
+        Side::Above,
+        &compensations,
+    );
     let sides: Vec<u64> = (0..plan.layers())
         .map(|layer| {
             let mut cursor = masks.cursor();
@@ -244,12 +254,19 @@ fn raised_entries_are_those_of_counted_layers() {
         let [ldi, _] = rays(&mesh, &grid, Samples::ONE);
         let plain = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
         let layers = 3;
-        let shrinking = Shrinking {
+        let compensations = Compensations {
             xy_mm: vec![0.0; plan.layers()],
             raise: Raise::By(plan.thickness_mm()[0] * layers as f64),
             least_mm: 0.0,
         };
-        let raised = Masks::shrunk(&ldi, &plan, &grid, Samples::ONE, Side::Above, &shrinking);
+        let raised = Masks::compensated(
+            &ldi,
+            &plan,
+            &grid,
+            Samples::ONE,
+            Side::Above,
+            &compensations,
+        );
         let lit: Vec<Vec<u8>> = (0..plan.layers())
             .map(|layer| found(&plain, layer))
             .collect();
@@ -268,21 +285,34 @@ fn raised_entries_are_those_of_counted_layers() {
 }
 
 #[test]
-fn growth_has_bounds_and_adds_up() {
-    let printer = Growth {
+fn resins_and_printers_may_name_it_as_they_did_at_first() {
+    let text = r#"{"growth": {"xy_mm": 0.05}}"#;
+    let resin: Resin = serde_json::from_str(text).unwrap();
+    assert_eq!(resin.compensation.xy_mm, 0.05);
+    let mut printer = serde_json::to_value(&PRINTERS[0]).unwrap();
+    let fields = printer.as_object_mut().unwrap();
+    let none = fields.remove("compensation").unwrap();
+    fields.insert("growth".to_owned(), none);
+    let read: Printer = serde_json::from_value(printer).unwrap();
+    assert_eq!(read, *PRINTERS[0]);
+}
+
+#[test]
+fn compensation_has_bounds_and_adds_up() {
+    let printer = Compensation {
         xy_mm: 0.02,
-        ..Growth::default()
+        ..Compensation::default()
     };
-    let resin = Growth {
+    let resin = Compensation {
         xy_mm: 0.03,
         bottom_xy_mm: Some(0.1),
         faded_layers: 5,
         z_mm: 0.1,
     };
-    assert!(Growth::default().is_none());
+    assert!(Compensation::default().is_none());
     assert_eq!(
         resin.and(printer),
-        Growth {
+        Compensation {
             xy_mm: 0.05,
             bottom_xy_mm: Some(0.1 + 0.02),
             faded_layers: 5,
@@ -291,19 +321,19 @@ fn growth_has_bounds_and_adds_up() {
     );
     assert!(resin.check().is_ok());
     for bad in [
-        Growth {
+        Compensation {
             xy_mm: 1.5,
             ..printer
         },
-        Growth {
+        Compensation {
             xy_mm: f64::NAN,
             ..printer
         },
-        Growth {
+        Compensation {
             z_mm: -0.1,
             ..printer
         },
-        Growth {
+        Compensation {
             bottom_xy_mm: Some(-2.0),
             ..printer
         },

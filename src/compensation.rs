@@ -1,16 +1,17 @@
-//! Growth of a print beyond its masks: light spreads sideways and cures resin below the intended layer.
+//! Compensation for prints larger than their masks: light spreads sideways and cures resin below the intended layer.
 
 use serde::{Deserialize, Serialize};
 
 use crate::quantity::QuantityError;
 
-/// Measured growth of a print, which masks make up for. A resin has one, and a printer may have another; they add up.
+/// Distances by which a print was measured to be larger than its masks, which make up for them. A resin has some, and a printer may have
+/// others; they add up.
 #[derive(Debug, Clone, Copy, PartialEq, Default, Serialize, Deserialize)]
 #[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[serde(default, deny_unknown_fields)]
-pub struct Growth {
-    /// Growth in x and y, on each side, in millimetres. Masks shrink by as much; with a negative one, they grow.
+pub struct Compensation {
+    /// Distance in x and y that is taken from each side of masks, in millimetres; a negative one is added.
     pub xy_mm: f64,
     /// The same for bottom layers, whose long exposure makes an elephant's foot; `xy_mm` if absent.
     pub bottom_xy_mm: Option<f64>,
@@ -21,14 +22,14 @@ pub struct Growth {
     pub z_mm: f64,
 }
 
-/// The greatest growth that is taken for a measured one.
+/// The greatest distance that is taken for a measured one.
 const MOST_MM: f64 = 1.0;
 
-impl Growth {
+impl Compensation {
     /// Checks that every number is within its bounds.
     ///
     /// # Errors
-    /// [`QuantityError::BadGrowth`].
+    /// [`QuantityError::BadCompensation`].
     pub fn check(&self) -> Result<(), QuantityError> {
         let sideways = [Some(self.xy_mm), self.bottom_xy_mm];
         let sideways = sideways.into_iter().flatten();
@@ -37,7 +38,7 @@ impl Growth {
             .chain([(self.z_mm, 0.0)])
             .find(|(mm, least_mm)| !(*least_mm..=MOST_MM).contains(mm));
         match out_of_bounds {
-            Some((value_mm, least_mm)) => Err(QuantityError::BadGrowth {
+            Some((value_mm, least_mm)) => Err(QuantityError::BadCompensation {
                 value_mm,
                 least_mm,
                 most_mm: MOST_MM,
@@ -46,7 +47,7 @@ impl Growth {
         }
     }
 
-    /// The growth of a resin on a printer that has its own.
+    /// The compensation of a resin on a printer that has its own.
     #[must_use]
     pub fn and(self, other: Self) -> Self {
         let is_bottom_apart = self.bottom_xy_mm.is_some() || other.bottom_xy_mm.is_some();
@@ -67,7 +68,7 @@ impl Growth {
         self.bottom_xy_mm.unwrap_or(self.xy_mm)
     }
 
-    /// Growth in x and y of each layer, in millimetres.
+    /// Distance in x and y of each layer, in millimetres.
     pub fn of_layers_mm(&self, layers: usize, bottom_layers: usize) -> Vec<f64> {
         let bottom_mm = self.bottom_mm();
         let steps = self.faded_layers + 1;

@@ -1,7 +1,7 @@
-//! Masks that make up for the growth of the print: shrunk in x and y, and later where surfaces face down.
+//! Masks that make up for prints larger than they: eroded in x and y, and later where surfaces face down.
 //!
 //! A ray stays lit at a height if all rays within the radius are lit there. Rows of rays are lists of lit stretches; a row of
-//! the result is the intersection of its neighbours', each shortened by the width of the disc in that row. Growing is the
+//! the result is the intersection of its neighbours', each shortened by the width of the disc in that row. Dilation is the
 //! union of stretches made longer.
 
 use std::ops::Range;
@@ -15,18 +15,18 @@ use crate::ldi::Ldi;
 
 /// Compensations in masks.
 #[derive(Debug, Clone, PartialEq)]
-pub struct Shrinking {
-    /// For each layer, the distance by which lit areas shrink on each side, in millimetres; negative: grow.
+pub struct Compensations {
+    /// For each layer, the distance taken from each side of lit areas, in millimetres; negative: added.
     pub xy_mm: Vec<f64>,
     /// Compensation of surfaces that face down.
     pub raise: Raise,
-    /// The least width that shrinking leaves, measured along rows and columns, in millimetres; narrower features are not changed. 0 for none.
+    /// The least width that erosion leaves, measured along rows and columns, in millimetres; narrower features are not changed. 0 for none.
     pub least_mm: f64,
 }
 
 /// Columns and rows by which rays around the model must be extended so that no grown area is cut off.
-pub(super) fn margin(shrinking: &Shrinking, grid: &Grid) -> [u32; 2] {
-    let most_mm = shrinking
+pub(super) fn margin(compensations: &Compensations, grid: &Grid) -> [u32; 2] {
+    let most_mm = compensations
         .xy_mm
         .iter()
         .fold(0.0, |most: f64, mm| most.max(-mm));
@@ -34,10 +34,10 @@ pub(super) fn margin(shrinking: &Shrinking, grid: &Grid) -> [u32; 2] {
 }
 
 /// Finds the changes in a band of rows.
-pub(super) struct Shrink<'a> {
+pub(super) struct Compensated<'a> {
     pub ldi: &'a Ldi,
     pub sublayer_of: &'a SublayerOf,
-    pub shrinking: &'a Shrinking,
+    pub compensations: &'a Compensations,
     /// Sublayers of a layer.
     pub parts: u32,
     /// The rays of the LDI, extended by the margin.
@@ -46,12 +46,12 @@ pub(super) struct Shrink<'a> {
     pub offset: [u32; 2],
 }
 
-impl Shrink<'_> {
+impl Compensated<'_> {
     /// The step of each layer.
     pub fn steps(&self) -> Vec<Step> {
-        let Shrinking {
+        let Compensations {
             xy_mm, least_mm, ..
-        } = self.shrinking;
+        } = self.compensations;
         let steps = xy_mm.iter();
         let steps = steps.map(|&mm| Step::new(mm, *least_mm, &self.rays));
         steps.collect()
@@ -69,7 +69,7 @@ impl Shrink<'_> {
         Entries {
             sublayer_of: self.sublayer_of,
             parts: self.parts,
-            raise: &self.shrinking.raise,
+            raise: &self.compensations.raise,
         }
     }
 
@@ -132,10 +132,10 @@ pub(super) struct Rows {
 }
 
 impl Rows {
-    pub fn new(shrink: &Shrink<'_>, rows: Range<i32>, part: Part) -> Self {
-        let (ldi, entries) = (shrink.ldi, shrink.entries());
-        let sublayers = shrink.shrinking.xy_mm.len() as u32 * shrink.parts;
-        let [left, above] = shrink.offset.map(|side| side as i32);
+    pub fn new(compensated: &Compensated<'_>, rows: Range<i32>, part: Part) -> Self {
+        let (ldi, entries) = (compensated.ldi, compensated.entries());
+        let sublayers = compensated.compensations.xy_mm.len() as u32 * compensated.parts;
+        let [left, above] = compensated.offset.map(|side| side as i32);
         let width = ldi.grid.width as usize;
         let mut flips = Vec::new();
         let mut ranges = Column::new();
