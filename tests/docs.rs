@@ -153,7 +153,7 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
         ("bridge_mm", Some(limits.bridge_mm), Code::Overhang),
         ("cup_mm2", Some(limits.cup_mm2), Code::Cup),
         ("trap_ml", Some(limits.trap_ml), Code::Trap),
-        ("escape_mm", Some(limits.escape_mm), Code::SmallEscape),
+        ("drain_mm", Some(limits.drain_mm), Code::NarrowDrain),
         ("wall_mm", Some(limits.wall_mm), Code::ThinWall),
         ("floor_mm", Some(limits.floor_mm), Code::ThinFloor),
         ("gap_mm", Some(limits.gap_mm), Code::NarrowGap),

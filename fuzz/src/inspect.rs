@@ -20,7 +20,7 @@ pub fn inspect(bytes: &[u8]) {
 }
 
 fn inspect_boxes(bytes: &[u8]) {
-    let Some((&[wall, gap, floor, overhang, bridge, escape, hole], boxes)) =
+    let Some((&[wall, gap, floor, overhang, bridge, drain, hole], boxes)) =
         bytes.split_first_chunk()
     else {
         return;
@@ -65,7 +65,7 @@ fn inspect_boxes(bytes: &[u8]) {
         floor_mm: f64::from(floor) * 0.01,
         overhang_mm: f64::from(overhang) * 0.01,
         bridge_mm: f64::from(bridge) * 0.02,
-        escape_mm: f64::from(escape) * 0.01,
+        drain_mm: f64::from(drain) * 0.01,
         hole_mm: f64::from(hole) * 0.01,
         ..Limits::default()
     };

@@ -1,14 +1,14 @@
 //! Hollows that resin leaves too slowly: through openings that are narrower than a limit.
 //!
 //! A dark pixel is roomy if a disc of the limit's diameter fits into the dark around it. Roomy pixels hang together as all pixels
-//! do. Those that hang together and do not reach the outside of the printed part are a hollow without an escape wide enough,
-//! unless no escape is there at all: then it is a trap.
+//! do. Those that hang together and do not reach the outside of the printed part are a hollow without a drain wide enough,
+//! unless no drain is there at all: then it is a trap.
 
 use super::collect::{Collector, Frame};
 use super::components::Patch;
 use super::finding::{Code, Finding};
 use super::forest::{End, Forest, Joining, Step};
-use super::hollows::{Gaps, Hollows, Meetings};
+use super::hollows::{GapLinks, Gaps, Hollows};
 use super::limits::Limits;
 use super::rows::{Disc, FAR, Rest, Rows, Span, unite};
 
@@ -174,7 +174,7 @@ impl<'a> Openings<'a> {
         &mut self,
         layer: usize,
         rooms: &Gaps,
-        meetings: &Meetings,
+        links: &GapLinks,
         gaps: &Gaps,
         hollows: &Hollows<'_>,
     ) {
@@ -190,19 +190,15 @@ impl<'a> Openings<'a> {
             layer,
             bins: self.frame.bins(layer),
             patches: &components.patches,
-            contacts: &meetings.contacts,
-            fixed: if layer == 0 {
-                &on_plate
-            } else {
-                &meetings.open
-            },
-            fixed_below: &meetings.open_below,
+            contacts: &links.contacts,
+            fixed: if layer == 0 { &on_plate } else { &links.open },
+            fixed_below: &links.open_below,
         };
         for (tree, end) in self.forest.advance(&step) {
-            let finding = self.frame.finding(Code::SmallEscape, &tree);
+            let finding = self.frame.finding(Code::NarrowDrain, &tree);
             let is_wanted = finding.volume_mm3 / 1e3 >= self.limits.trap_ml;
             if !tree.is_fixed && end == End::Closed && is_wanted {
-                let limit = self.limits.escape_mm;
+                let limit = self.limits.drain_mm;
                 let hollow = self.hollow[tree.number as usize];
                 self.found.push((Finding { limit, ..finding }, hollow));
             }

@@ -27,7 +27,7 @@ pub enum Code {
     /// A hollow that is open nowhere once it is printed.
     Trap,
     /// A hollow that resin leaves only through openings that are too narrow.
-    SmallEscape,
+    NarrowDrain,
     /// A wall, or another part, that is too thin within layers.
     ThinWall,
     /// A floor, a roof, or another part, that is too thin along z.
@@ -56,7 +56,7 @@ impl Code {
         Self::Overhang,
         Self::Cup,
         Self::Trap,
-        Self::SmallEscape,
+        Self::NarrowDrain,
         Self::ThinWall,
         Self::ThinFloor,
         Self::NarrowGap,
@@ -77,7 +77,7 @@ impl Code {
             Self::Overhang => "overhang",
             Self::Cup => "cup",
             Self::Trap => "trap",
-            Self::SmallEscape => "small-escape",
+            Self::NarrowDrain => "narrow-drain",
             Self::ThinWall => "thin-wall",
             Self::ThinFloor => "thin-floor",
             Self::NarrowGap => "narrow-gap",
@@ -108,7 +108,7 @@ pub struct Finding {
     /// Its largest area in a layer, in mm².
     pub area_mm2: f64,
     /// Its volume in mm³: the lit volume of a body, or of an island until it joins another, the dark volume of a cup or
-    /// a trap, and of a small escape the dark volume with room for the limit.
+    /// a trap, and of a narrow drain the dark volume with room for the limit.
     pub volume_mm3: f64,
     /// For islands, the layer that joins them with something else, from 0.
     pub joins_layer: Option<usize>,
@@ -168,7 +168,7 @@ impl Display for Finding {
                 "{:.3} ml of resin are enclosed; make two holes to drain them",
                 volume / 1e3
             ),
-            Code::SmallEscape => write!(
+            Code::NarrowDrain => write!(
                 f,
                 "{:.3} ml of resin or more leave a hollow only through openings narrower than {limit} mm; widen them, or add one",
                 volume / 1e3

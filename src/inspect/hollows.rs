@@ -40,9 +40,9 @@ impl Gaps {
     }
 }
 
-/// Contacts between the gaps of a layer and those of the layer below, and gaps that are open to the outside.
+/// Links of the gaps of a layer with those of the layer below, and gaps that are open to the outside.
 #[derive(Default)]
-pub(super) struct Meetings {
+pub(super) struct GapLinks {
     pub contacts: Vec<[u32; 2]>,
     /// Components of the layer that are open to the outside, in it or in the layer below.
     pub open: Vec<u32>,
@@ -50,7 +50,7 @@ pub(super) struct Meetings {
     pub open_below: Vec<u32>,
 }
 
-impl Meetings {
+impl GapLinks {
     /// `below` is absent for the first layer.
     pub fn new(here: &Gaps, extent: Extent<'_>, below: Option<(&Gaps, Extent<'_>)>) -> Self {
         let mut is_open = here.is_open.clone();
@@ -94,16 +94,16 @@ impl<'a> Hollows<'a> {
         &mut self,
         layer: usize,
         gaps: &Gaps,
-        meetings: &Meetings,
+        links: &GapLinks,
         collector: &mut Collector<'_>,
     ) {
         let step = Step {
             layer,
             bins: self.frame.bins(layer),
             patches: &gaps.components.patches,
-            contacts: &meetings.contacts,
-            fixed: &meetings.open,
-            fixed_below: &meetings.open_below,
+            contacts: &links.contacts,
+            fixed: &links.open,
+            fixed_below: &links.open_below,
         };
         for (tree, end) in self.forest.advance(&step) {
             self.add(&tree, end, collector);

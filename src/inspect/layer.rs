@@ -8,7 +8,7 @@ use super::components::Components;
 use super::drain_openings::{self, Extents};
 use super::finding::Code;
 use super::holes;
-use super::hollows::{Gaps, Meetings};
+use super::hollows::{GapLinks, Gaps};
 use super::limits::Limits;
 use super::overhang;
 use super::rows::{Disc, Rows, Span};
@@ -34,8 +34,8 @@ pub(super) struct Layer {
     pub alone: Arc<Alone>,
     /// Pairs of lit components of the layer below and of this one.
     pub contacts: Vec<[u32; 2]>,
-    pub meetings: Meetings,
-    pub room_meetings: Meetings,
+    pub links: GapLinks,
+    pub room_links: GapLinks,
     /// Width that a self-supporting slope spans in the layer.
     pub width: Disc,
     /// Pixels that would be unsupported if all of the layer below were supported.
@@ -69,8 +69,8 @@ struct Checks<'a> {
     limits: &'a Limits,
     walls: Option<Thickness>,
     gaps: Option<Thickness>,
-    /// The disc that must fit into an escape.
-    escape: Option<Disc>,
+    /// The disc that must fit into a drain.
+    drain: Option<Disc>,
 }
 
 impl<'a> Reader<'a> {
@@ -87,14 +87,14 @@ impl<'a> Reader<'a> {
                 .then(|| Thickness::new(limit_mm, frame.grid))
                 .flatten()
         };
-        let is_wanted = limits.looks_for(Code::SmallEscape);
-        let escape = is_wanted.then(|| Disc::to_fit(limits.escape_mm, frame.grid));
+        let is_wanted = limits.looks_for(Code::NarrowDrain);
+        let drain = is_wanted.then(|| Disc::to_fit(limits.drain_mm, frame.grid));
         let checks = Checks {
             frame,
             limits,
             walls: thickness(Code::ThinWall, limits.wall_mm),
             gaps: thickness(Code::NarrowGap, limits.gap_mm),
-            escape: escape.flatten(),
+            drain: drain.flatten(),
         };
         Self {
             checks,
@@ -125,7 +125,7 @@ impl<'a> Reader<'a> {
         let (checks, last) = (&self.checks, self.last.as_ref());
         let alone = parallel::map((0..count).collect(), |place| {
             let lit = Rows::of_layer(&runs, place, &checks.frame.area);
-            Arc::new(Alone::new(lit, checks.escape.as_ref()))
+            Arc::new(Alone::new(lit, checks.drain.as_ref()))
         });
         let layers = parallel::map((0..count).collect(), |place| {
             let below = place.checked_sub(1).map(|below| &alone[below]);
@@ -144,10 +144,10 @@ impl Checks<'_> {
         let contacts = below.map_or(Vec::new(), |below| lit.contacts(&below.lit));
         let width = overhang::width(number, self.frame, self.limits);
         let lit_extent = |it: &Alone, row| it.lit.rows.extent(row);
-        let of_gaps = meetings(alone, below, |it| &it.gaps, &lit_extent);
-        let of_rooms = self.escape.as_ref().map_or(Meetings::default(), |disc| {
+        let of_gaps = links(alone, below, |it| &it.gaps, &lit_extent);
+        let of_rooms = self.drain.as_ref().map_or(GapLinks::default(), |disc| {
             let extent = |it: &Alone, row| it.extents.of_row(row, disc);
-            meetings(alone, below, |it| &it.rooms, &extent)
+            links(alone, below, |it| &it.rooms, &extent)
         });
         let below = below.filter(|_| self.limits.looks_for(Code::Overhang));
         let flat = below.map_or(Rows::default(), |below| {
@@ -155,8 +155,8 @@ impl Checks<'_> {
         });
         Layer {
             number,
-            meetings: of_gaps,
-            room_meetings: of_rooms,
+            links: of_gaps,
+            room_links: of_rooms,
             alone: Arc::clone(alone),
             contacts,
             width,
@@ -191,18 +191,18 @@ impl Checks<'_> {
 }
 
 /// Contacts of dark places of a kind with those of the layer below.
-fn meetings(
+fn links(
     here: &Alone,
     below: Option<&Alone>,
     places: fn(&Alone) -> &Gaps,
     extent: &dyn Fn(&Alone, i32) -> Option<Span>,
-) -> Meetings {
+) -> GapLinks {
     let extent_here = |row| extent(here, row);
     let Some(below) = below else {
-        return Meetings::new(places(here), &extent_here, None);
+        return GapLinks::new(places(here), &extent_here, None);
     };
     let extent_below = |row| extent(below, row);
-    Meetings::new(
+    GapLinks::new(
         places(here),
         &extent_here,
         Some((places(below), &extent_below)),
@@ -210,9 +210,9 @@ fn meetings(
 }
 
 impl Alone {
-    fn new(lit: Rows, escape: Option<&Disc>) -> Self {
-        let extents = escape.map_or(Extents::default(), |disc| Extents::new(&lit, disc));
-        let rooms = escape.map(|disc| drain_openings::rooms(&lit, disc, &extents));
+    fn new(lit: Rows, drain: Option<&Disc>) -> Self {
+        let extents = drain.map_or(Extents::default(), |disc| Extents::new(&lit, disc));
+        let rooms = drain.map(|disc| drain_openings::rooms(&lit, disc, &extents));
         Self {
             rooms: rooms.unwrap_or_default(),
             extents,

@@ -41,8 +41,9 @@ pub struct Limits {
     pub cup_mm2: f64,
     /// Traps count from this volume on, in millilitres.
     pub trap_ml: f64,
-    /// The narrowest way out of a hollow, in millimetres.
-    pub escape_mm: f64,
+    /// The narrowest drain of a hollow, in millimetres.
+    #[serde(alias = "escape_mm")]
+    pub drain_mm: f64,
     /// The thinnest wall, across layers, in millimetres.
     pub wall_mm: f64,
     /// The thinnest floor or roof, along z, in millimetres.
@@ -63,7 +64,7 @@ pub struct Limits {
     pub note_mm3: f64,
     /// Islands and loose bodies are rejected from this volume on, in mm³: pieces that drift in the vat, or hang from their arm alone.
     pub reject_mm3: f64,
-    /// Traps, cups and hollows with small escapes below this volume are notes, in millilitres: a drop.
+    /// Traps, cups and hollows with narrow drains below this volume are notes, in millilitres: a drop.
     pub note_ml: f64,
     /// The severity of each kind of finding, at most: those with a volume have a lower one where it is small.
     pub severity: Severities,
@@ -80,7 +81,7 @@ impl Default for Limits {
             bridge_mm: 5.0,
             cup_mm2: 1.0,
             trap_ml: 0.001,
-            escape_mm: 2.0,
+            drain_mm: 2.0,
             wall_mm: 0.4,
             floor_mm: 0.4,
             gap_mm: 0.3,
@@ -118,7 +119,8 @@ pub struct Severities {
     /// A hollow that is open nowhere.
     pub trap: Severity,
     /// A hollow whose openings are too narrow.
-    pub small_escape: Severity,
+    #[serde(alias = "small-escape")]
+    pub narrow_drain: Severity,
     /// A wall that is too thin.
     pub thin_wall: Severity,
     /// A floor or a roof that is too thin.
@@ -147,7 +149,7 @@ impl Default for Severities {
             overhang: Severity::Review,
             cup: Severity::Review,
             trap: Severity::Reject,
-            small_escape: Severity::Review,
+            narrow_drain: Severity::Review,
             thin_wall: Severity::Review,
             thin_floor: Severity::Review,
             narrow_gap: Severity::Review,
@@ -172,7 +174,7 @@ impl Severities {
             overhang: rest,
             cup: rest,
             trap: rest,
-            small_escape: rest,
+            narrow_drain: rest,
             thin_wall: rest,
             thin_floor: rest,
             narrow_gap: rest,
@@ -194,7 +196,7 @@ impl Severities {
             Code::Overhang => self.overhang,
             Code::Cup => self.cup,
             Code::Trap => self.trap,
-            Code::SmallEscape => self.small_escape,
+            Code::NarrowDrain => self.narrow_drain,
             Code::ThinWall => self.thin_wall,
             Code::ThinFloor => self.thin_floor,
             Code::NarrowGap => self.narrow_gap,
@@ -237,7 +239,7 @@ impl Limits {
         let by_volume = match code {
             Code::Island | Code::LooseBody if volume_mm3 < self.note_mm3 => Severity::Note,
             Code::Island | Code::LooseBody if volume_mm3 < self.reject_mm3 => Severity::Review,
-            Code::Trap | Code::Cup | Code::SmallEscape if volume_mm3 < self.note_ml * 1e3 => {
+            Code::Trap | Code::Cup | Code::NarrowDrain if volume_mm3 < self.note_ml * 1e3 => {
                 Severity::Note
             }
             _ => Severity::Reject,
@@ -257,7 +259,7 @@ impl Limits {
     pub fn check(&self) -> Result<(), LimitsError> {
         let lengths = [
             ("overhang_mm", self.overhang_mm),
-            ("escape_mm", self.escape_mm),
+            ("drain_mm", self.drain_mm),
             ("wall_mm", self.wall_mm),
             ("floor_mm", self.floor_mm),
             ("gap_mm", self.gap_mm),

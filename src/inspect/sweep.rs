@@ -69,11 +69,10 @@ impl<'a> Sweep<'a> {
         };
         self.bodies.advance(&step, collector);
         let gaps = &layer.alone.gaps;
-        self.hollows
-            .advance(number, gaps, &layer.meetings, collector);
-        let (rooms, meetings) = (&layer.alone.rooms, &layer.room_meetings);
+        self.hollows.advance(number, gaps, &layer.links, collector);
+        let (rooms, links) = (&layer.alone.rooms, &layer.room_links);
         self.openings
-            .advance(number, rooms, meetings, gaps, &self.hollows);
+            .advance(number, rooms, links, gaps, &self.hollows);
         self.overhangs.advance(&layer, frame, collector);
         let mut thin = layer.thin;
         for rows in [&mut thin.walls, &mut thin.gaps, &mut thin.low_gaps] {

@@ -103,7 +103,7 @@ fn in_whole_numbers(found: &Printability, masks: &Masks, plan: &Plan) -> Found {
     let kinds = [
         "loose",
         "trap",
-        "small-escape",
+        "narrow-drain",
         "thin-wall",
         "narrow-gap",
         "overhang",
@@ -139,7 +139,7 @@ fn compare(name: &str, triangles: &Triangles) -> Result<usize, Failed> {
     let limits = Limits {
         wall_mm: 9.0 * pitch_mm,
         gap_mm: 7.0 * pitch_mm,
-        escape_mm: 6.0 * pitch_mm,
+        drain_mm: 6.0 * pitch_mm,
         overhang_mm: 4.0 * pitch_mm,
         bridge_mm: 20.0 * pitch_mm,
         floor_mm: 9.0 * bin_mm,

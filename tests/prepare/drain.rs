@@ -144,7 +144,7 @@ fn automatic_holes_leave_no_trap_and_no_cup() {
         let mut model = load(&triangles);
         let codes = |slicer: &mut crate::common::Slicer| {
             let found = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
-            let of_hollows = [Code::Trap, Code::Cup, Code::SmallEscape];
+            let of_hollows = [Code::Trap, Code::Cup, Code::NarrowDrain];
             let counts = found.counts.into_iter().map(|count| count.code);
             counts
                 .filter(|code| of_hollows.contains(code))

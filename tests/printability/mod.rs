@@ -1,6 +1,6 @@
 //! Findings of the checks on solids in closed form, against brute force on voxels, and under symmetries.
 
-mod escapes;
+mod drains;
 mod forms;
 mod naive;
 mod symmetry;

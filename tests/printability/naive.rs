@@ -50,7 +50,7 @@ fn by_brute_force(masks: &Masks, plan: &Plan, limits: &Limits) -> Vec<Found> {
     all.extend(voxels.overhangs(limits));
     all.extend(voxels.thin_walls(limits));
     all.extend(voxels.narrow_gaps(limits));
-    all.extend(voxels.small_escapes(limits));
+    all.extend(voxels.narrow_drains(limits));
     all.extend(voxels.small_holes(limits));
     all.extend(voxels.thin_floors(limits));
     all.extend(voxels.low_gaps(limits));
@@ -107,7 +107,7 @@ pub fn random_boxes_have_the_findings_of_brute_force() {
             wall_mm: length(rng),
             floor_mm: length(rng) / 2.0,
             gap_mm: length(rng),
-            escape_mm: length(rng),
+            drain_mm: length(rng),
             hole_mm: length(rng),
             low_gap_mm: length(rng) / 2.0,
             overhang_mm: length(rng) / 2.0,
@@ -167,21 +167,21 @@ fn random_hollows(rng: &mut fastrand::Rng, pitch_mm: [f64; 2]) -> solids::Triang
 
 #[test]
 pub fn random_hollows_have_the_findings_of_brute_force() {
-    let mut escapes = 0;
+    let mut drains = 0;
     for seed in 0..100 {
         let rng = &mut fastrand::Rng::with_seed(seed);
         let (masks, plan) = random_masks(rng, random_hollows);
         let pitch_mm = masks.grid.pitch_mm;
         let limits = Limits {
-            escape_mm: f64::from(rng.u32(2..8)) * pitch_mm,
+            drain_mm: f64::from(rng.u32(2..8)) * pitch_mm,
             hole_mm: f64::from(rng.u32(2..8)) * pitch_mm,
             ..strict()
         };
         compare(&format!("seed {seed}"), &masks, &plan, &limits);
         let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap();
-        escapes += super::of_code(&found, Code::SmallEscape).len();
+        drains += super::of_code(&found, Code::NarrowDrain).len();
     }
-    assert!(escapes > 25, "{escapes} small escapes in all");
+    assert!(drains > 25, "{drains} narrow drains in all");
 }
 
 #[test]
@@ -203,7 +203,7 @@ fn solids_have_the_findings_of_brute_force() {
             wall_mm: 6.0 * pitch_mm,
             floor_mm: 9.0 * bin_mm,
             gap_mm: 5.0 * pitch_mm,
-            escape_mm: 4.0 * pitch_mm,
+            drain_mm: 4.0 * pitch_mm,
             hole_mm: 6.0 * pitch_mm,
             low_gap_mm: 9.0 * bin_mm,
             overhang_mm: 3.0 * pitch_mm,

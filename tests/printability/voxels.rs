@@ -442,8 +442,8 @@ impl Voxels {
         is_out
     }
 
-    pub fn small_escapes(&self, limits: &Limits) -> Vec<Found> {
-        let radius_mm = (limits.escape_mm - self.pitch_mm()) / 2.0;
+    pub fn narrow_drains(&self, limits: &Limits) -> Vec<Found> {
+        let radius_mm = (limits.drain_mm - self.pitch_mm()) / 2.0;
         if radius_mm < self.grid.pitch_mm.min(self.grid.pitch_y_mm) {
             return Vec::new();
         }
@@ -465,7 +465,7 @@ impl Voxels {
             let (low, high) = (layers[0], layers[layers.len() - 1]);
             let hollow = hollows[low][places(low).unwrap()];
             if !is_out[room] && drains[hollow] {
-                found.push((Code::SmallEscape, [low, high], volume, 0, None));
+                found.push((Code::NarrowDrain, [low, high], volume, 0, None));
             }
         }
         found

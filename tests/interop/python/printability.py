@@ -92,9 +92,9 @@ def steps(unsupported, supported, down, right):
     return steps
 
 
-def escapes(lit, dark, bins, limits, pitch_mm):
-    """Hollows, none of them traps, in which no disc of an escape's width finds its way out."""
-    radius_mm = (limits["escape_mm"] - max(pitch_mm)) / 2
+def narrow_drains(lit, dark, bins, limits, pitch_mm):
+    """Hollows, none of them traps, in which no disc of a drain's width finds its way out."""
+    radius_mm = (limits["drain_mm"] - max(pitch_mm)) / 2
     rooms = np.stack([beyond(~layer, layer, radius_mm, pitch_mm) for layer in lit])
     labels, _ = ndimage.label(rooms, SIX)
     out = np.union1d(labels[[0, -1]], labels[:, 0, 0])
@@ -135,7 +135,7 @@ def main(job, lit):
         "bodies": [[first, last, volume] for first, last, volume, _ in bodies],
         "loose": [[first, last, volume] for first, last, volume, _ in bodies if first > 0],
         "trap": [[first, last, volume] for first, last, volume, _ in closed],
-        "small-escape": list(escapes(lit, dark, bins, limits, pitch_mm)),
+        "narrow-drain": list(narrow_drains(lit, dark, bins, limits, pitch_mm)),
         "begins": list(without_support(lit)),
         "thin-wall": regions(walls, bins, bin_mm, least_px, limits["wall_mm"]),
         "narrow-gap": regions(gaps, bins, bin_mm, least_px, limits["gap_mm"]),

@@ -13,7 +13,7 @@ const SENTENCES: Readonly<Record<Code, string>> = {
   overhang: "Flat undersides need supports.",
   cup: "A hollow sucks while it is printed; it needs a hole near the plate.",
   trap: "Liquid resin would be locked in a hollow; it needs a hole.",
-  "small-escape": "Resin leaves a hollow only through narrow openings.",
+  "narrow-drain": "Resin leaves a hollow only through narrow openings.",
   "thin-wall": "Some walls are thin and may break.",
   "thin-floor": "Some floors or roofs are thin and may break.",
   "narrow-gap": "Some gaps are narrow and may close.",

@@ -1,6 +1,6 @@
 //! Hollows whose ways out are known, in layers and on pixels of 0.05 mm.
 
-use cusp_slicer::inspect::{Code, Limits};
+use cusp_slicer::inspect::{Code, Limits, Severity};
 
 use super::forms::{assert_codes, joined, slab, walls, walls_with_door};
 use super::solids::Triangles;
@@ -26,14 +26,14 @@ fn bottle(hole_mm: f32) -> Triangles {
 #[test]
 fn a_hollow_with_a_narrow_hole_hardly_drains() {
     let found = check(&bottle(1.5), &strict());
-    assert_codes(&found, &[Code::Cup, Code::SmallEscape]);
-    let escape = of_code(&found, Code::SmallEscape)[0];
-    assert_eq!(escape.layers, [20, 139]);
+    assert_codes(&found, &[Code::Cup, Code::NarrowDrain]);
+    let drain = of_code(&found, Code::NarrowDrain)[0];
+    assert_eq!(drain.layers, [20, 139]);
     // Room for the middle of a disc of 1.95 mm: all but 0.95 mm at each wall, and a little more near the hole.
     let room_mm3 = 6.1 * 6.1 * 6.0;
-    assert!((room_mm3..room_mm3 + 0.5).contains(&escape.volume_mm3));
+    assert!((room_mm3..room_mm3 + 0.5).contains(&drain.volume_mm3));
     let narrower = Limits {
-        escape_mm: 1.5,
+        drain_mm: 1.5,
         ..strict()
     };
     assert_codes(&check(&bottle(1.5), &narrower), &[Code::Cup]);
@@ -47,10 +47,18 @@ fn a_hollow_with_a_narrow_hole_hardly_drains() {
 fn what_is_open_to_the_plate_or_above_drains() {
     let vented = [walls_with_door(0.0, 0.2), walls(0.2, 5.0), slab(5.0, 6.0)];
     let wide = Limits {
-        escape_mm: 3.0,
+        drain_mm: 3.0,
         ..strict()
     };
     assert_codes(&check(&joined(vented), &wide), &[]);
     let pot = joined([slab(0.0, 1.0), walls(1.0, 5.0)]);
     assert_codes(&check(&pot, &wide), &[Code::Cup]);
+}
+
+#[test]
+fn limits_may_name_drains_as_they_did_at_first() {
+    let text = r#"{"escape_mm": 3.0, "severity": {"small-escape": "note"}}"#;
+    let limits: Limits = serde_json::from_str(text).unwrap();
+    assert_eq!(limits.drain_mm, 3.0);
+    assert_eq!(limits.severity.narrow_drain, Severity::Note);
 }
