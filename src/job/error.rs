@@ -68,7 +68,7 @@ pub enum Error {
         /// Seconds that it may take.
         allowed_s: f64,
     },
-    /// Pieces of supported models begin with nothing below them, and would float in the vat.
+    /// Pieces of supported or hollow models begin with nothing below them, and would float in the vat.
     #[error(
         "{} nothing below, the largest of {volume_mm3:.2} mm³ in layer {layer_number} at {:.2}, {:.2}, {:.2}; add supports there, turn the \
          model, or allow floating pieces",

@@ -149,7 +149,7 @@ pub struct Options {
     pub pitch_y_mm: Option<f64>,
     /// True if print files have their masks mirrored left to right, for printers whose screen lights the resin from below.
     pub mirror: Option<bool>,
-    /// True if print files of supported models are written although pieces would float in the vat.
+    /// True if print files of supported or hollow models are written although pieces would float in the vat.
     #[serde(skip_serializing_if = "std::ops::Not::not")]
     pub allow_floating: bool,
     /// Format of the print file.

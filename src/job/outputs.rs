@@ -223,7 +223,8 @@ impl Job {
         self.plate_mut(plate)?.write_file(encoded, writer, progress)
     }
 
-    /// Pieces of supported models that would float in the vat, from the largest down: they begin with nothing below them.
+    /// Pieces that would float in the vat, from the largest down: they begin with nothing below them. Of models without supports, those
+    /// count that hollowing makes.
     ///
     /// # Errors
     /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.

@@ -19,7 +19,9 @@ use crate::argsort::sort_by_number;
 use crate::format::Format;
 use crate::inspect::{self, Finding};
 use crate::ldi::LdiError;
-use crate::mask::{LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp};
+use crate::mask::{
+    LayerRuns, MaskCursor, Masks, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp,
+};
 use crate::progress::Progress;
 
 /// A plate with its plan and its report.
@@ -45,26 +47,40 @@ impl Plate {
         models.all(|model| model.sampled().bound().is_none())
     }
 
-    /// Pieces of a supported model that would float in the vat, from the largest down. Without all hits in memory nothing is
-    /// looked for.
+    /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that do not float when
+    /// they are solid. Without all hits in memory nothing is looked for.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
     pub fn floating(&mut self, progress: &mut Progress<'_>) -> Result<Vec<Finding>, Error> {
         let planned = Arc::clone(&self.planned);
-        let is_supported = |model: &PlannedModel| model.sampled().is_supported();
-        if !self.are_all_held() || !planned.models.iter().any(is_supported) {
+        let is_prepared = |model: &&PlannedModel| {
+            let prepared = &model.sampled().prepared;
+            prepared.supports.is_some() || prepared.hollowed.is_some()
+        };
+        let prepared = planned.models.iter().filter(is_prepared).count();
+        if !self.are_all_held() || prepared == 0 {
             return Ok(Vec::new());
         }
         let (masks, _) = self.seen()?;
-        let all = planned.models.iter().zip(&masks.stamps);
-        let supported: Vec<_> = all.filter(|(model, _)| is_supported(model)).collect();
         let mut found = Vec::new();
-        for (place, (_, stamp)) in supported.iter().enumerate() {
-            let mut within =
-                |fraction| progress((place as f64 + fraction) / supported.len() as f64);
-            let floating = inspect::floating(&stamp.masks, &planned.plan, &mut within);
-            found.extend(floating.map_err(LdiError::from)?);
+        let mut done = 0.0;
+        for (place, model) in planned.models.iter().enumerate() {
+            if !is_prepared(&model) {
+                continue;
+            }
+            let mut within = |fraction| progress((done + fraction) / prepared as f64);
+            let mut floating_in = |masks: &Masks| {
+                let floating = inspect::floating(masks, &planned.plan, &mut within);
+                floating.map_err(LdiError::from)
+            };
+            let mut floating = floating_in(&masks.stamps[place].masks)?;
+            if !floating.is_empty() && !model.sampled().is_supported() {
+                let when_solid = floating_in(&planned.solid_masks(place, Side::Above)?)?;
+                floating.retain(|it| !when_solid.iter().any(|solid| begins_in(it, solid)));
+            }
+            found.extend(floating);
+            done += 1.0;
         }
         sort_by_number(&mut found, |it| -it.volume_mm3);
         Ok(found)
@@ -254,6 +270,14 @@ impl Plate {
             progress,
         )?)
     }
+}
+
+/// Returns true if a piece begins within another, which is then the same, cut by a hole or not.
+fn begins_in(piece: &Finding, other: &Finding) -> bool {
+    let [low_mm, high_mm] = other.bounds_mm;
+    let mut axes = 0..3;
+    other.layers[0] <= piece.layers[0]
+        && axes.all(|axis| (low_mm[axis]..=high_mm[axis]).contains(&piece.at_mm[axis]))
 }
 
 /// The places of copies as they are seen from a side.

@@ -580,22 +580,29 @@ impl Standing {
             pillar.leave_standing(&self.lattice, slice, depths_mm);
         }
         let Lattice { width, .. } = self.lattice;
-        let is_in_hole = |hole: &Drain| drain::within(hole, self.hole_mm, 0.0);
-        let holes: Vec<_> = self.holes.iter().map(is_in_hole).collect();
-        let node_mm = |node: usize| self.lattice.node_mm(node % width, node / width, slice);
+        // Between two nodes, the edge of a hole may part what hangs together at both.
+        let spacing_mm = f64::from(self.lattice.spacing_mm);
+        let [near, within] = [spacing_mm, 0.0].map(|beside_mm| {
+            let holes = self.holes.iter();
+            let holes = holes.map(|hole| drain::within(hole, self.hole_mm, beside_mm));
+            holes.collect::<Vec<_>>()
+        });
+        let node_mm = |node: usize, slice| self.lattice.node_mm(node % width, node / width, slice);
         let stands = |node: usize, depths_mm: &[f32]| {
             of_void[node] > 0.0
                 && depths_mm[node] <= 0.0
-                && !holes.iter().any(|is_within| is_within(node_mm(node)))
+                && !near.iter().any(|is_near| is_near(node_mm(node, slice)))
+        };
+        // Holes cut walls, too.
+        let holds = |below: usize| {
+            let is_cut = || within.iter().any(|cuts| cuts(node_mm(below, slice - 1)));
+            self.below[below] && !is_cut()
         };
         let is_standing: Vec<bool> = (0..of_void.len()).map(|it| stands(it, depths_mm)).collect();
         // Parts that nothing below holds are left out, where a hole cuts what stands.
         let mut is_held = vec![false; of_void.len()];
         let mut next: Vec<usize> = (0..of_void.len())
-            .filter(|&it| {
-                is_standing[it]
-                    && (self.below.is_empty() || self.around(it).any(|it| self.below[it]))
-            })
+            .filter(|&it| is_standing[it] && (self.below.is_empty() || holds(it)))
             .collect();
         for &node in &next {
             is_held[node] = true;
@@ -616,15 +623,14 @@ impl Standing {
         self.below = depths_mm.iter().map(|&it| it <= 0.0).collect();
     }
 
-    /// A node and those around it.
+    /// A node and those beside it in its slice. Between others, surfaces may pass.
     fn around(&self, node: usize) -> impl Iterator<Item = usize> + use<> {
         let Lattice { width, height, .. } = self.lattice;
         let (column, row) = (node % width, node / width);
-        let rows = row.saturating_sub(1)..(row + 2).min(height);
-        rows.flat_map(move |row| {
-            let columns = column.saturating_sub(1)..(column + 2).min(width);
-            columns.map(move |column| row * width + column)
-        })
+        let in_row = column.saturating_sub(1)..(column + 2).min(width);
+        let in_column = row.saturating_sub(1)..(row + 2).min(height);
+        let in_row = in_row.map(move |column| row * width + column);
+        in_row.chain(in_column.map(move |row| row * width + column))
     }
 }
 

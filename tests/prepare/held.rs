@@ -6,7 +6,7 @@ use cusp_slicer::inspect::{Code, Limits, Printability};
 use cusp_slicer::job::Supported;
 use cusp_slicer::job::{Options, Report};
 use cusp_slicer::prepare::{
-    AutoDrain, Hollowing, Infill, SupportPoint, SupportProfile, SupportStrength, Supporting,
+    AutoDrain, Drain, Hollowing, Infill, SupportPoint, SupportProfile, SupportStrength, Supporting,
 };
 use cusp_slicer::resin::Resin;
 use glam::{DVec3, Vec3};
@@ -405,6 +405,82 @@ fn pieces_that_float_are_named_after_every_preparation() {
         };
         plan(&mut slicer, &options);
         assert!(slicer.floating(&mut quiet).unwrap().is_empty());
+    }
+}
+
+#[test]
+fn a_hollow_model_is_refused_for_the_pieces_that_its_holes_cut_off_alone() {
+    let block = |side: f32, at: [f32; 3]| {
+        solids::moved(&solids::cuboid(Vec3::splat(side)), Vec3::from_array(at))
+    };
+    // A box with an arm that rises in steps from its side, and beside it a cube in the air.
+    let mut model = block(20.0, [0.0; 3]);
+    for step in 0..8 {
+        let step = step as f32;
+        model.extend(block(2.0, [19.0 + step, 9.0, 8.0 + step]));
+    }
+    model.extend(block(2.0, [26.0, 2.0, 10.0]));
+    let hollow = |drains| Options {
+        hollow: Some(Hollowing {
+            wall_mm: 2.0,
+            drains,
+            ..Hollowing::default()
+        }),
+        pitch_mm: Some(0.1),
+        ..Options::default()
+    };
+    let floating = |options: &Options| {
+        let mut slicer = load(&model);
+        plan(&mut slicer, options);
+        slicer.floating(&mut quiet).unwrap()
+    };
+    assert_eq!(floating(&hollow(Vec::new())), []);
+    // The middle of the model is at x = 14.
+    let through_the_root = Drain {
+        at_mm: [22.5 - 14.0, 0.0, 10.0],
+        direction: [-1.0, 0.0, 0.0],
+        diameter_mm: 4.0,
+        depth_mm: None,
+    };
+    let found = floating(&hollow(vec![through_the_root]));
+    assert_eq!(found.len(), 1, "{found:?}");
+    // The hole takes all steps up to z = 12, but for slivers beside its top.
+    assert_near(found[0].at_mm[2], 12.0, 0.3);
+    let above_mm3 = 2.0 * (4.0 * 3.0 + 2.0);
+    assert!((above_mm3..above_mm3 + 1.0).contains(&found[0].volume_mm3));
+}
+
+#[test]
+fn nothing_floats_where_holes_cut_struts() {
+    let ball = solids::sphere(15.0, 5);
+    // Holes all around, at eight heights, so that some end in nodes and some beside struts.
+    let drains = (0..16).map(|hole: u32| {
+        let [x, y] = [[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0]][hole as usize % 4];
+        let z_mm = 7.0 + f64::from(hole / 2) * 2.3;
+        let radius_mm = (225.0 - (z_mm - 15.0_f64).powi(2)).sqrt();
+        Drain {
+            at_mm: [x * radius_mm, y * radius_mm, z_mm],
+            direction: [-x, -y, 0.0],
+            diameter_mm: 3.0,
+            depth_mm: None,
+        }
+    });
+    let mut options = Options {
+        hollow: Some(Hollowing {
+            wall_mm: 1.2,
+            infill: Some(Infill::default()),
+            drains: drains.collect(),
+            ..Hollowing::default()
+        }),
+        pitch_mm: Some(0.05),
+        ..Options::default()
+    };
+    let mut slicer = load(&ball);
+    for spacing_mm in [5.0, 6.5, 8.0] {
+        let infill = options.hollow.as_mut().unwrap().infill.as_mut();
+        infill.unwrap().spacing_mm = spacing_mm;
+        plan(&mut slicer, &options);
+        assert_eq!(slicer.floating(&mut quiet).unwrap(), [], "{spacing_mm}");
     }
 }
 

@@ -239,7 +239,7 @@ pub struct Choices {
     /// Lift the model this far above the plate, on its supports [default: 5]
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
     lift: Option<f64>,
-    /// Write print files of supported models in which pieces float in the vat, too
+    /// Write print files of supported or hollow models in which pieces float in the vat, too
     #[arg(long, help_heading = "Model")]
     allow_floating: bool,
     /// Put all supports on a raft
