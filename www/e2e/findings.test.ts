@@ -1,6 +1,6 @@
 /** Findings on the page: their kinds and places, and their updates with the model. */
 import { execFile } from "node:child_process";
-import { mkdtemp, rm, writeFile } from "node:fs/promises";
+import { mkdtemp, readFile, rm, writeFile } from "node:fs/promises";
 import { tmpdir } from "node:os";
 import { join } from "node:path";
 import { promisify } from "node:util";
@@ -12,7 +12,7 @@ import type { CuspWorkbench } from "../src/workbench/cusp-workbench.js";
 import { broken } from "./axe.js";
 import { drop, maskOf, openPanel, settled, state } from "./browser.js";
 import { pages } from "./pages.js";
-import { cup, prism } from "./solids.js";
+import { cup, prism, sphere } from "./solids.js";
 
 const start = pages();
 const mug = { name: "mug.stl", bytes: cup(10, 8, 1.5) };
@@ -107,6 +107,28 @@ test.skipIf(program === undefined)("the page finds what the command line does", 
     const plain = ({ verdict, findings, counts, bodies, peel }: Partial<ModelPrintability>): unknown =>
       JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
     expect(plain(check?.models[0] ?? {})).toEqual(plain(told.plates[0]?.models[0] ?? {}));
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+});
+
+test.skipIf(program === undefined)("supports of a file are read as parts of the model by a button, and undo takes it back", async () => {
+  const folder = await mkdtemp(join(tmpdir(), "cusp-supports-"));
+  try {
+    const [ball, held] = ["ball.stl", "held.stl"].map((name) => join(folder, name)) as [string, string];
+    await writeFile(ball, sphere(6, 32).bytes);
+    await promisify(execFile)(program ?? "", ["plan", ball, "--supports", "medium", "--export", held]);
+    const page = await start("?backend=cpu");
+    await drop(page, { name: "held.stl", bytes: await readFile(held) });
+    await settled(page);
+    const supported = (): Promise<boolean> =>
+      page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.supported != null);
+    expect(await supported()).toBe(true);
+    await page.getByRole("button", { name: "They are parts of the model" }).click();
+    await expect.poll(supported).toBe(false);
+    await settled(page);
+    await page.keyboard.press("Control+z");
+    await expect.poll(supported).toBe(true);
   } finally {
     await rm(folder, { recursive: true });
   }

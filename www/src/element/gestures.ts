@@ -29,7 +29,8 @@ export function watchGestures(element: HTMLElement, gestures: Gestures): void {
   element.addEventListener("keydown", (event) => pressed(event, gestures));
 }
 
-function pressed(event: KeyboardEvent, { cancel, undo, redo }: Gestures): void {
+/** Handles Escape, undo and redo. */
+export function pressed(event: KeyboardEvent, { cancel, undo, redo }: Pick<Gestures, "cancel" | "undo" | "redo">): void {
   if (event.key === "Escape") return cancel();
   const [origin] = event.composedPath();
   // In a text field, the browser handles these keys.

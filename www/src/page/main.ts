@@ -161,6 +161,8 @@ async function start(): Promise<void> {
       slicer.refuse(error, name);
     },
     cancel: () => (shown === null ? slicer.cancel() : close()),
+    undo: () => shown === null && slicer.undo(),
+    redo: () => shown === null && slicer.redo(),
   });
   workOffline();
   fetchAhead();

@@ -1,13 +1,12 @@
-/** Accepts dropped and pasted files anywhere on the page, and Escape from any focus. */
-import { takeDrop, type DropHost } from "../element/dropped.js";
+/** Accepts dropped and pasted files anywhere on the page, and Escape, undo and redo from any focus. */
+import { takeDrop } from "../element/dropped.js";
+import { pressed, type Gestures } from "../element/gestures.js";
 
 /** Selector of the place where a drop replaces the open models. Elsewhere it is added to them. */
 const REPLACING = ".drop-veil .replace";
 
-export interface Anywhere extends DropHost {
-  dragging(is: boolean): void;
+export interface Anywhere extends Gestures {
   open(files: readonly File[], isReplacing?: boolean): void;
-  cancel(): void;
 }
 
 const replacing = (): Element | null => document.querySelector(REPLACING);
@@ -19,7 +18,7 @@ function isReplacing({ clientX, clientY }: DragEvent): boolean {
 }
 
 export function openAnywhere(anywhere: Anywhere): void {
-  const { dragging, open, cancel } = anywhere;
+  const { dragging, open } = anywhere;
   // Captures events before the element, to avoid handling a drop twice. A drop outside the element must not navigate away.
   window.addEventListener(
     "dragover",
@@ -50,6 +49,7 @@ export function openAnywhere(anywhere: Anywhere): void {
     if (!event.defaultPrevented) open([...(event.clipboardData?.files ?? [])]);
   });
   window.addEventListener("keydown", (event) => {
-    if (event.key === "Escape") cancel();
+    // The element has handled its own.
+    if (!event.defaultPrevented) pressed(event, anywhere);
   });
 }

@@ -10,6 +10,7 @@ export const offers = {
   images: "Save as images",
   floating: "Save it all the same",
   noPrinter: "Without a printer",
+  parts: "They are parts of the model",
   unit: "It is in {unit|settings.units}",
   again: "Try again",
 } as const;

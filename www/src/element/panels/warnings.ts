@@ -11,14 +11,22 @@ import type { Session } from "../state/session.js";
 /** With several models, each warning names its model. */
 export function warnings(all: readonly Warned[], session: Session, language: Language, saveTowers: () => void): readonly TemplateResult[] {
   const { model, fixed } = session;
+  const isOfSelected = (names: ReadonlySet<string>): boolean => names.size === 0 || names.has(shown(model?.name ?? ""));
   return adviseOn(all, language, fixed).map(
-    ({ text, offers, towers, plates, names }) => html`<div class="warning">
+    ({ text, offers, towers, plates, parts, names }) => html`<div class="warning">
       <p>${names.size > 0 ? html`<b>${language.format.all([...names])}</b>: ` : nothing}${text}</p>
-      ${plates === null || (names.size > 0 && !names.has(shown(model?.name ?? ""))) ? nothing : plateList(session, plates, text, language)}
+      ${isOfSelected(names) && plates !== null ? plateList(session, plates, text, language) : nothing}
+      ${isOfSelected(names) && parts ? partsOffer(session, language) : nothing}
       ${offerButtons(offers, (change) => session.change(change))}
       ${towers ? towersOffer(session.towers, language, saveTowers) : nothing}
     </div>`,
   );
+}
+
+/** Button that reads what is taken for supports as parts of the model; undo takes it back. */
+function partsOffer(session: Session, { texts }: Language): TemplateResult {
+  const read = (): void => void session.reread({ ...session.model?.reading, supports_as_model: true });
+  return html`<div class="offers"><button class="small" @click=${read}>${texts.offers.parts}</button></div>`;
 }
 
 /** List of the plates of a project, to read another one. */

@@ -14,6 +14,8 @@ export interface Advice {
   towers: boolean;
   /** Plates of the model's project; null for other warnings. */
   plates: PlateChoice | null;
+  /** True if what is taken for supports of the file may be parts of the model. */
+  parts: boolean;
 }
 
 /**
@@ -30,7 +32,8 @@ export function advise(warnings: readonly Warning[], language: Language, fixed: 
     const units = warning.code === "odd-size" ? warning.detail.readings : [];
     const offers = allowed([...(best ? [bestUniform(best, language)] : []), ...units.map(({ unit }) => inUnit(unit, language))], fixed);
     const plates = warning.code === "other-plates" ? warning.detail : null;
-    advice.set(text, { text, offers, plates, towers: isOfPrinter(warning) && !fixed.has("printer") });
+    const parts = warning.code === "own-supports";
+    advice.set(text, { text, offers, plates, parts, towers: isOfPrinter(warning) && !fixed.has("printer") });
   }
   return [...advice.values()];
 }

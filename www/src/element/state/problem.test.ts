@@ -217,12 +217,12 @@ test("a warning is said once, and offers what keeps the tolerance in layers of o
   const text =
     "Anycubic Photon M3 takes one thickness for all layers, and this plan has several; 882 uniform layers of 0.068\u00a0mm keep the tolerance.";
   expect(warn([one, { code: "inside-out" }, one])).toEqual([
-    { text, offers: [BEST_OFFER], towers: true, plates: null },
-    { text: "The mesh was inside out, and was turned over.", offers: [], towers: false, plates: null },
+    { text, offers: [BEST_OFFER], towers: true, plates: null, parts: false },
+    { text: "The mesh was inside out, and was turned over.", offers: [], towers: false, plates: null, parts: false },
   ]);
-  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [], towers: true, plates: null }]);
+  expect(warn([one], ["uniform"])).toEqual([{ text, offers: [], towers: true, plates: null, parts: false }]);
   expect(warn([{ code: "one-thickness", detail: { taker: "sl1", best: null } }])).toEqual([
-    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [], towers: false, plates: null },
+    { text: "sl1 takes one thickness for all layers, and this plan has several; choose the uniform planner.", offers: [], towers: false, plates: null, parts: false },
   ]);
 });
 
@@ -267,13 +267,13 @@ test("a print file with floating pieces can be saved all the same", () => {
 
 test("of a project with several plates another can be chosen", () => {
   const detail = { plate_number: 2, plates: 3 };
-  expect(advise([{ code: "other-plates", detail }], languageOf("en"), new Set())).toEqual([{ text: "Plate 2 of 3 is read.", offers: [], towers: false, plates: detail }]);
+  expect(advise([{ code: "other-plates", detail }], languageOf("en"), new Set())).toEqual([{ text: "Plate 2 of 3 is read.", offers: [], towers: false, plates: detail, parts: false }]);
 });
 
 test("whether a printer that the page has fixed was ever tried is not the customer's business", () => {
   const untried: Warning = { code: "untried-thicknesses", detail: { model: "Elegoo Saturn 3" } };
   expect(advise([untried], languageOf("en"), new Set())).toEqual([
-    { text: expect.stringMatching(/^It is not confirmed that the Elegoo Saturn 3 .*print the test towers, or/), offers: [], towers: true, plates: null },
+    { text: expect.stringMatching(/^It is not confirmed that the Elegoo Saturn 3 .*print the test towers, or/), offers: [], towers: true, plates: null, parts: false },
   ]);
   expect(advise([untried], languageOf("en"), new Set(["printer"]))).toEqual([]);
 });
