@@ -124,6 +124,12 @@ test.skipIf(program === undefined)("supports of a file are read as parts of the 
     const supported = (): Promise<boolean> =>
       page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models[0]?.supported != null);
     expect(await supported()).toBe(true);
+    // What holds the model stays when it is prepared.
+    const query = (): Promise<string> => page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.query);
+    const before = await query();
+    await page.getByRole("button", { name: "Prepare automatically" }).click();
+    await page.waitForSelector("cusp-findings [data-verdict]");
+    expect(await query()).toBe(before);
     await page.getByRole("button", { name: "They are parts of the model" }).click();
     await expect.poll(supported).toBe(false);
     await settled(page);

@@ -12,6 +12,7 @@ import { problemStyles } from "../element/parts/problem-box.js";
 import { partStyles } from "../element/parts/part.js";
 import { progressStyles } from "../element/parts/progress.js";
 import { SlicerElement } from "../element/slicer-element.js";
+import { isPreSupported } from "../element/state/prepared.js";
 import { copiesStyles } from "../element/styles/copies-styles.js";
 import { shared } from "../element/styles/shared.js";
 import { theme } from "../element/styles/theme.js";
@@ -97,12 +98,14 @@ export class CuspWorkbench extends SlicerElement {
     });
   }
 
-  /** Shows the search for a direction, then the check of the prepared model. */
+  /** Shows the search for a direction, then the check of the prepared model. One with supports in its file is prepared already. */
   async #prepare(): Promise<void> {
     const show = (step: Step): void => {
       this.#set(() => (this.#step = step));
       if (!this.#isWide) this.#open(step);
     };
+    const { settings, result } = this.session;
+    if (isPreSupported(settings, result)) return show("check");
     show("turn");
     if (await this.session.prepare()) show("check");
   }

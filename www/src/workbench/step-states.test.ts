@@ -77,6 +77,14 @@ test("supports are counted once they are planned with their strength", () => {
   expect(strength("medium")).toEqual({ words: "Medium, 2 points", mark: "look" });
 });
 
+test("supports of the file are said, until others are chosen", () => {
+  const own = { supported };
+  expect(states({ own }).support).toEqual({ words: "In the file", mark: "done" });
+  expect(states({ settings: { supports: "light" }, own }).support.words).toBe("Light");
+  // Those of an earlier plan go with the next.
+  expect(states({ supports: { strength: "medium" }, own }).support).toEqual({ words: "None", mark: null });
+});
+
 test("a plan that is not of the settings on show needs a look, and what is wrong is told where it is", () => {
   expect(states({ earlier: true }).slice.mark).toBe("look");
   const wall = states({ settings: { wall: "0.1" }, faults: { wall: fault }, earlier: true });

@@ -3,6 +3,7 @@ import { isFilament } from "../api/facts.js";
 import type { Verdict, Warning } from "../api/wire.js";
 import type { Checks } from "../element/state/checks.js";
 import type { Session } from "../element/state/session.js";
+import { isPreSupported } from "../element/state/prepared.js";
 import { parse } from "../element/state/settings.js";
 import { SIZE_FIELDS } from "../element/state/support-sizes.js";
 import type { Language } from "../texts/index.js";
@@ -61,6 +62,7 @@ function support({ settings: { supports, format }, faults, result }: Walked, lan
   const { states: words } = workbenchWords(language);
   if (isFilament(format)) return { words: "–", mark: null };
   const strength = language.texts.settings.strengths[supports];
+  if (isPreSupported({ supports }, result)) return { words: words.inFile, mark: "done" };
   if (supports === "none") return { words: strength, mark: null };
   if (OF_SUPPORTS.some((field) => faults[field] !== undefined)) return { words: words.wrong, mark: "wrong" };
   const supported = result?.own?.supported;

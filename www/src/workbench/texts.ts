@@ -51,6 +51,8 @@ export const workbenchWords = room("workbench", {
     solid: "Solid",
     walls: "Walls of {thickness}",
     supports: "{strength}, {points|one:# point|other:# points}",
+    /** Supports that the file has. */
+    inFile: "In the file",
     /** Number of points that no support reaches. */
     missing: "{points|one:# point|other:# points} without a support",
     /** A field of the step is invalid. */

@@ -2,6 +2,7 @@
 import { isFilament } from "../../api/facts.js";
 import type { Candidate } from "../../api/wire.js";
 import { withPose } from "./orientation.js";
+import type { Result } from "./result.js";
 import type { Settings } from "./settings.js";
 
 /** Models of more resin than this are hollowed, ml. */
@@ -12,6 +13,11 @@ export const STRENGTH = "medium";
 
 /** Walls of hollowed models, mm. */
 export const WALL = "2";
+
+/** Returns true if the file of the planned model has supports, which its print keeps. */
+export function isPreSupported({ supports }: Pick<Settings, "supports">, result: Result | null): boolean {
+  return supports === "none" && result !== null && result.options.supports == null && result.own?.supported != null;
+}
 
 /**
  * The pose of a candidate, supports, and walls for a model that takes much resin. Supports and walls already chosen stay, and slicers of
