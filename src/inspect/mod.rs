@@ -22,6 +22,7 @@ mod overhang;
 mod peel;
 mod regions;
 mod rows;
+mod solid;
 mod surfaces;
 mod sweep;
 mod thickness;
@@ -32,6 +33,7 @@ pub use finding::{Code, Finding};
 pub use held::Held;
 pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
+pub(crate) use solid::stands_when_solid;
 
 use crate::mask::Masks;
 use crate::plan::Plan;

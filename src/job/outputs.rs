@@ -224,7 +224,7 @@ impl Job {
     }
 
     /// Pieces that would float in the vat, from the largest down: they begin with nothing below them. Of models without supports, those
-    /// count that hollowing makes.
+    /// count that the solid model would hold.
     ///
     /// # Errors
     /// [`Error::NoPlan`]; [`Error::Ldi`] if `progress` cancels.

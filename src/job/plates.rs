@@ -19,9 +19,7 @@ use crate::argsort::sort_by_number;
 use crate::format::Format;
 use crate::inspect::{self, Finding};
 use crate::ldi::LdiError;
-use crate::mask::{
-    LayerRuns, MaskCursor, Masks, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp,
-};
+use crate::mask::{LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp};
 use crate::progress::Progress;
 
 /// A plate with its plan and its report.
@@ -47,8 +45,8 @@ impl Plate {
         models.all(|model| model.sampled().bound().is_none())
     }
 
-    /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that do not float when
-    /// they are solid. Without all hits in memory nothing is looked for.
+    /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that would stand if
+    /// they were solid. Without all hits in memory nothing is looked for.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
@@ -70,14 +68,15 @@ impl Plate {
                 continue;
             }
             let mut within = |fraction| progress((done + fraction) / prepared as f64);
-            let mut floating_in = |masks: &Masks| {
-                let floating = inspect::floating(masks, &planned.plan, &mut within);
-                floating.map_err(LdiError::from)
-            };
-            let mut floating = floating_in(&masks.stamps[place].masks)?;
-            if !floating.is_empty() && !model.sampled().is_supported() {
-                let when_solid = floating_in(&planned.solid_masks(place, Side::Above)?)?;
-                floating.retain(|it| !when_solid.iter().any(|solid| begins_in(it, solid)));
+            let masks = &masks.stamps[place].masks;
+            let floating = inspect::floating(masks, &planned.plan, &mut within);
+            let mut floating = floating.map_err(LdiError::from)?;
+            let sampled = model.sampled();
+            if !sampled.is_supported() {
+                let ldi = sampled.ldi()?;
+                floating.retain(|it| {
+                    inspect::stands_when_solid(ldi, &planned.plan, it.at_mm, it.layers[0])
+                });
             }
             found.extend(floating);
             done += 1.0;
@@ -270,14 +269,6 @@ impl Plate {
             progress,
         )?)
     }
-}
-
-/// Returns true if a piece begins within another, which is then the same, cut by a hole or not.
-fn begins_in(piece: &Finding, other: &Finding) -> bool {
-    let [low_mm, high_mm] = other.bounds_mm;
-    let mut axes = 0..3;
-    other.layers[0] <= piece.layers[0]
-        && axes.all(|axis| (low_mm[axis]..=high_mm[axis]).contains(&piece.at_mm[axis]))
 }
 
 /// The places of copies as they are seen from a side.

@@ -208,26 +208,6 @@ impl Ldi {
         &self.hits[self.offsets[ray] as usize..self.offsets[ray + 1] as usize]
     }
 
-    /// The hits of the model alone, without those of voids and supports.
-    #[must_use]
-    pub fn model_alone(&self) -> Self {
-        let end = self.classes.model_end();
-        let of_model = |hits: &[Hit]| hits.iter().filter(|hit| hit.facet() < end).count() as u32;
-        let mut offsets = vec![0];
-        let mut count = 0;
-        for ray in 0..self.rays() {
-            count += of_model(self.ray(ray));
-            offsets.push(count);
-        }
-        let hits = self.hits.iter().filter(|hit| hit.facet() < end);
-        Self {
-            grid: self.grid,
-            offsets,
-            hits: hits.copied().collect(),
-            classes: FacetClasses::of_model(self.classes.surface_end(), end as usize),
-        }
-    }
-
     /// Number of rays.
     pub fn rays(&self) -> usize {
         self.offsets.len() - 1

@@ -9,7 +9,7 @@ use super::planning::{Findings, Planning};
 use super::sampled::Sampled;
 use crate::cure::Cure;
 use crate::job::Error;
-use crate::ldi::{Ldi, LdiError};
+use crate::ldi::LdiError;
 use crate::mask::{
     Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks, erased_mm2,
     print_through,
@@ -215,27 +215,14 @@ impl Planned {
     /// [`Error::MemoryBound`] if there is no LDI.
     pub fn masks(&self, model: usize, side: Side) -> Result<Masks, Error> {
         let sampled = self.models[model].sampled();
-        Ok(self.masks_of(sampled, sampled.ldi()?, side))
-    }
-
-    /// The same of the model without its voids and supports.
-    ///
-    /// # Errors
-    /// [`Error::MemoryBound`] if there is no LDI.
-    pub fn solid_masks(&self, model: usize, side: Side) -> Result<Masks, Error> {
-        let sampled = self.models[model].sampled();
-        Ok(self.masks_of(sampled, &sampled.ldi()?.model_alone(), side))
-    }
-
-    fn masks_of(&self, sampled: &Sampled, ldi: &Ldi, side: Side) -> Masks {
         let Sampled { grid, sampling, .. } = sampled;
-        let samples = sampling.samples;
-        match &self.compensations {
+        let (ldi, samples) = (sampled.ldi()?, sampling.samples);
+        Ok(match &self.compensations {
             None => Masks::new(ldi, &self.plan, grid, samples, side),
             Some(compensations) => {
                 Masks::compensated(ldi, &self.plan, grid, samples, side, compensations)
             }
-        }
+        })
     }
 
     /// The same to be read once, slab by slab if there is no LDI.
