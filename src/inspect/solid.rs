@@ -1,7 +1,6 @@
 //! The solid model that a hollow one was made of: would it hold a piece?
 
 use glam::DVec2;
-use rustc_hash::FxHashMap;
 
 use crate::ldi::{Ldi, model_ranges};
 use crate::plan::Plan;
@@ -10,6 +9,8 @@ use crate::plan::Plan;
 #[derive(Clone, Copy)]
 struct Stretch {
     ray: usize,
+    /// Index of a hit of the ray, another one for each of its stretches.
+    hit: usize,
     first: usize,
     /// The layer above the last.
     end: usize,
@@ -35,7 +36,12 @@ pub(crate) fn stands_when_solid(ldi: &Ldi, plan: &Plan, at_mm: [f64; 3], layer: 
                 .map(|z_mm| heights_mm.partition_point(|&middle| middle < f64::from(z_mm)));
             match stretches.last_mut() {
                 Some(last) if first <= last.end => last.end = end.max(last.end),
-                _ if first < end => stretches.push(Stretch { ray, first, end }),
+                _ if first < end => stretches.push(Stretch {
+                    ray,
+                    hit: ldi.offsets[ray] as usize + stretches.len(),
+                    first,
+                    end,
+                }),
                 _ => {}
             }
         });
@@ -45,8 +51,8 @@ pub(crate) fn stands_when_solid(ldi: &Ldi, plan: &Plan, at_mm: [f64; 3], layer: 
     let start = stretches_of(ray)
         .into_iter()
         .find(|it| (it.first..it.end).contains(&layer));
-    // The highest layer of each stretch to which a way leads.
-    let mut levels = FxHashMap::default();
+    // One more than the highest layer of each stretch to which a way leads, by its hit.
+    let mut levels = vec![0; ldi.hits.len()];
     let mut next: Vec<(Stretch, usize)> = start.map(|start| (start, layer)).into_iter().collect();
     while let Some((from, level)) = next.pop() {
         if from.first == 0 {
@@ -64,9 +70,8 @@ pub(crate) fn stands_when_solid(ldi: &Ldi, plan: &Plan, at_mm: [f64; 3], layer: 
                 continue;
             }
             let level = level.min(to.end - 1);
-            let known = levels.entry((to.ray, to.first)).or_insert(0);
-            if *known <= level {
-                *known = level + 1;
+            if levels[to.hit] <= level {
+                levels[to.hit] = level + 1;
                 next.push((to, level));
             }
         }

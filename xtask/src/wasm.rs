@@ -36,7 +36,7 @@ const MODULES: [Module; 2] = [
     Module {
         name: "cusp_slicer",
         features: &[],
-        budget: 829_000,
+        budget: 831_000,
     },
     Module {
         name: "cusp_reader",
