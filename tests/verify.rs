@@ -3,8 +3,13 @@
 
 use crate::common::Slicer;
 use crate::common::{assert_near, binary_stl, quiet, solids};
-use cusp_slicer::job::{Backend, Claim, Job, LoadedModel, Options, Planner, Report, VerifyError};
+use cusp_slicer::job::{
+    Backend, Claim, Job, JobOptions, LoadedModel, ModelOptions, Options, Placement, Planner,
+    Report, VerifyError,
+};
+use cusp_slicer::prepare::Supporting;
 use cusp_slicer::profile::Metric;
+use glam::Vec3;
 use serde_json::{Value, json};
 
 fn options() -> Options {
@@ -101,6 +106,54 @@ fn what_is_no_plan_of_this_model_is_refused() {
         verify(&slack, &model),
         Err(VerifyError::NotAPlan { .. })
     ));
+}
+
+#[test]
+fn a_plate_is_verified_without_the_models_of_others() {
+    // By its own height, which the other plate does not state, the bar fits the printer.
+    let bar = solids::cuboid(Vec3::new(40.0, 40.0, 300.0));
+    let files = [bar, solids::sphere(3.0, 3)].map(|it| binary_stl(&it));
+    let models = || {
+        Job::new(
+            files
+                .each_ref()
+                .map(|it| LoadedModel::read(it).unwrap())
+                .into(),
+        )
+    };
+    let printer = json!({
+        "pixels": [400, 300], "pitch_um": [100, 100], "volume_mm": [40, 30, 50], "step_mm": 0.01
+    });
+    let options = JobOptions {
+        options: Options {
+            printer: Some(serde_json::from_value(printer).unwrap()),
+            supports: Some(Supporting::default()),
+            ..Options::default()
+        },
+        models: [Some(10.0), None]
+            .map(|height_mm| ModelOptions {
+                height_mm,
+                ..ModelOptions::default()
+            })
+            .into(),
+        placements: [0, 1]
+            .map(|model| Placement {
+                model,
+                plate: model,
+                ..Placement::MIDDLE
+            })
+            .into(),
+        ..JobOptions::default()
+    };
+    let mut job = models();
+    let report = pollster::block_on(job.plan(&options, &mut quiet)).unwrap();
+    let identities = job.models().iter().map(LoadedModel::model_file);
+    let text = serde_json::to_string(&report).unwrap();
+    for claim in Claim::read(&text, &identities.collect::<Vec<_>>()).unwrap() {
+        let mut again = models();
+        let made = pollster::block_on(claim.plan_again(&mut again, &mut quiet)).unwrap();
+        assert_eq!(claim.check(made), Ok(()));
+    }
 }
 
 #[test]

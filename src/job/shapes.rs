@@ -78,7 +78,11 @@ impl Job {
         let count = self.models.len() as f64;
         for model in 0..self.models.len() {
             let last = kept.next();
-            let sampling = self.sampling_of(options, resolved, model, 0);
+            let mut sampling = self.sampling_of(options, resolved, model, 0);
+            if options.of_model(model).copies == 0 {
+                // Nothing of it is printed.
+                (sampling.hollow, sampling.supports) = (None, None);
+            }
             let mut within = |stage, fraction| progress(stage, (model as f64 + fraction) / count);
             let weights = if Prepared::takes_time(&sampling) {
                 self.models[model].layering_weights(&resolved.layering, &mut within)?
