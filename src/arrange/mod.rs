@@ -195,8 +195,9 @@ pub fn arrange<E: From<ArrangeError> + Send>(
     }
     let Some(best) = best else {
         let fits = |shape: &Shape| shape.places(screen).is_some();
-        let item = shapes.iter().position(|shapes| !shapes.iter().any(fits));
-        let item = item.unwrap_or_default();
+        let is_too_large =
+            |item: &usize| items[*item].copies > 0 && !shapes[*item].iter().any(fits);
+        let item = (0..items.len()).find(is_too_large).unwrap_or_default();
         let [first, last] = shapes[item][0].outline.pixels;
         let size_mm = [0, 1].map(|axis| (last[axis] - first[axis]) as f64 * screen.pitch_mm[axis]);
         return Err(E::from(ArrangeError::TooLarge {

@@ -260,6 +260,20 @@ fn a_plate_that_cannot_be_arranged_says_why() {
         ..options()
     };
     assert_eq!(code(of(high, 1)), "plate-too-small");
+    // A model without copies is not in the way.
+    let [wide, wider] = [50.0, 60.0].map(|side| solids::cuboid(Vec3::new(side, 5.0, 5.0)));
+    let refused = plate(&[&wider, &cube, &wide]).arrange(&job(options(), &[0, 1, 1]));
+    let too_large = refused.unwrap_err();
+    assert!(
+        matches!(
+            too_large,
+            cusp_slicer::Error::Arrange(ArrangeError::TooLarge {
+                model_number: 3,
+                ..
+            })
+        ),
+        "{too_large:?}"
+    );
     for (spacing_mm, turn_deg, expected) in [
         (-1.0, 0, "bad-spacing"),
         (f64::NAN, 0, "bad-spacing"),
