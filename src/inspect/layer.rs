@@ -190,7 +190,7 @@ impl Checks<'_> {
     }
 }
 
-/// Contacts of dark places of a kind with those of the layer below.
+/// Links of dark places of a kind with those of the layer below.
 fn links(
     here: &Alone,
     below: Option<&Alone>,

@@ -444,7 +444,7 @@ fn a_hollow_model_is_refused_for_the_pieces_that_its_holes_cut_off_alone() {
     };
     let found = floating(&hollow(vec![through_the_root]));
     assert_eq!(found.len(), 1, "{found:?}");
-    // The hole takes all steps up to z = 12, but for slivers beside its top.
+    // The hole removes the steps below z = 12 and leaves slivers beside its top.
     assert_near(found[0].at_mm[2], 12.0, 0.3);
     let above_mm3 = 2.0 * (4.0 * 3.0 + 2.0);
     assert!((above_mm3..above_mm3 + 1.0).contains(&found[0].volume_mm3));

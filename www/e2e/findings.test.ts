@@ -94,11 +94,20 @@ test("on a plate a finding is marked on each copy that stands alike, and warning
 
 const program = process.env["CUSP"];
 
+/** Runs work in a folder of its own, which is removed afterwards. */
+async function inFolder(work: (folder: string) => Promise<void>): Promise<void> {
+  const folder = await mkdtemp(join(tmpdir(), "cusp-findings-"));
+  try {
+    await work(folder);
+  } finally {
+    await rm(folder, { recursive: true });
+  }
+}
+
 test.skipIf(program === undefined)("the page finds what the command line does", async () => {
   const page = await opened();
   const check = await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.check);
-  const folder = await mkdtemp(join(tmpdir(), "cusp-findings-"));
-  try {
+  await inFolder(async (folder) => {
     const model = join(folder, mug.name);
     await writeFile(model, mug.bytes);
     const { stdout } = await promisify(execFile)(program ?? "", ["check", model, "--json"]);
@@ -107,14 +116,11 @@ test.skipIf(program === undefined)("the page finds what the command line does", 
     const plain = ({ verdict, findings, counts, bodies, peel }: Partial<ModelPrintability>): unknown =>
       JSON.parse(JSON.stringify({ verdict, findings: findings?.map((it) => ({ ...it, joins_layer: it.joins_layer ?? null })), counts, bodies, peel }));
     expect(plain(check?.models[0] ?? {})).toEqual(plain(told.plates[0]?.models[0] ?? {}));
-  } finally {
-    await rm(folder, { recursive: true });
-  }
+  });
 });
 
 test.skipIf(program === undefined)("supports of a file are read as parts of the model by a button, and undo takes it back", async () => {
-  const folder = await mkdtemp(join(tmpdir(), "cusp-supports-"));
-  try {
+  await inFolder(async (folder) => {
     const [ball, held] = ["ball.stl", "held.stl"].map((name) => join(folder, name)) as [string, string];
     await writeFile(ball, sphere(6, 32).bytes);
     await promisify(execFile)(program ?? "", ["plan", ball, "--supports", "medium", "--export", held]);
@@ -135,7 +141,5 @@ test.skipIf(program === undefined)("supports of a file are read as parts of the 
     await settled(page);
     await page.keyboard.press("Control+z");
     await expect.poll(supported).toBe(true);
-  } finally {
-    await rm(folder, { recursive: true });
-  }
+  });
 });
