@@ -14,6 +14,7 @@ use crate::prepare::{
     AutoDrain, LEAST_GAP_MM, LEAST_WALL_MM, MOST_SUPPORT_MM, SupportProfile, SupportStrength,
 };
 use crate::profile::Metric;
+use crate::quantity::Quantity;
 
 /// The options that rays depend on. A change of any other repeats the plan or the print file alone.
 const RAY_OPTIONS: [&str; 13] = [
@@ -56,10 +57,8 @@ pub struct Facts {
     pub formats: Vec<FormatFacts>,
     /// Width of most nozzles of filament printers.
     pub nozzle_mm: f64,
-    /// Minimum and maximum width of a nozzle.
-    pub nozzles_mm: [f64; 2],
-    /// Minimum thickness of the walls of a hollow model.
-    pub wall_least_mm: f64,
+    /// Usual values of numbers that people type.
+    pub usual: Usual,
     /// Sizes of supports by their strength.
     pub supports: StrengthProfiles,
     /// Least values of the sizes of supports, by their names.
@@ -83,6 +82,43 @@ pub struct Facts {
     pub ray_options: [&'static str; RAY_OPTIONS.len()],
 }
 
+/// Usual values of numbers that people type, from and to, by option. One beyond them is probably in another unit: layers of 50 mm are of
+/// 50 µm. The core takes more, but for walls, nozzles, overcure and retained doses.
+#[derive(Debug, Serialize)]
+#[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
+#[expect(missing_docs, reason = "the fields are the options")]
+pub struct Usual {
+    pub bottom_layers: [f64; 2],
+    pub copies: [f64; 2],
+    pub exposure_s: [f64; 2],
+    pub height_mm: [f64; 2],
+    pub layer_mm: [f64; 2],
+    pub nozzle_mm: [f64; 2],
+    pub overcure_mm: [f64; 2],
+    pub penetration_mm: [f64; 2],
+    pub retained: [f64; 2],
+    pub step_mm: [f64; 2],
+    pub wall_mm: [f64; 2],
+}
+
+impl Default for Usual {
+    fn default() -> Self {
+        Self {
+            bottom_layers: [0.0, 100.0],
+            copies: [1.0, 1000.0],
+            exposure_s: [0.1, 600.0],
+            height_mm: [0.1, 1000.0],
+            layer_mm: [0.001, 1.0],
+            nozzle_mm: NOZZLES_MM,
+            overcure_mm: Quantity::Overcure.range(),
+            penetration_mm: [0.01, 2.0],
+            retained: Quantity::RetainedDose.range(),
+            step_mm: [0.001, 1.0],
+            wall_mm: [LEAST_WALL_MM, 50.0],
+        }
+    }
+}
+
 /// A metric.
 #[derive(Debug, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
@@ -91,6 +127,10 @@ pub struct MetricFacts {
     pub name: Metric,
     /// Default tolerance on resin printers, in the metric's unit. For volume, a job may need more.
     pub tolerance: f64,
+    /// Usual tolerances, from and to, in the same unit.
+    pub tolerances: [f64; 2],
+    /// Greatest density of the profile; absent if it depends on the model.
+    pub greatest_density: Option<f32>,
 }
 
 /// Sizes of supports for each strength.
@@ -126,6 +166,8 @@ impl Default for Facts {
         let metric = |name: Metric| MetricFacts {
             name,
             tolerance: name.default_tolerance(),
+            tolerances: name.tolerances(),
+            greatest_density: name.greatest_density(),
         };
         let least = SupportProfile::LEAST.iter();
         let least = least.map(|&(option, _, least)| {
@@ -139,8 +181,7 @@ impl Default for Facts {
             metrics: Metric::ALL.map(metric),
             formats: Format::all().map(format).collect(),
             nozzle_mm: USUAL_NOZZLE_MM,
-            nozzles_mm: NOZZLES_MM,
-            wall_least_mm: LEAST_WALL_MM,
+            usual: Usual::default(),
             supports: StrengthProfiles {
                 light: SupportStrength::Light.profile(),
                 medium: SupportStrength::Medium.profile(),

@@ -8,6 +8,8 @@ pub(super) const ROW: Row = Row {
     name: "cusp",
     unit: "mm",
     default_tolerance: 0.065,
+    tolerances: [0.001, 1.0],
+    greatest_density: Some(1.0),
     is_distance: true,
     error: ErrorRule::Slope(&Cusp),
 };

@@ -19,6 +19,8 @@ pub(super) const ROW: Row = Row {
     name: "deviation",
     unit: "mm",
     default_tolerance: 0.0325,
+    tolerances: [0.0005, 0.5],
+    greatest_density: Some(1.0),
     is_distance: true,
     error: ErrorRule::Deviation,
 };

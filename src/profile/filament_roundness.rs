@@ -14,6 +14,8 @@ pub(super) const ROW: Row = Row {
     name: "filament-roundness",
     unit: "mm",
     default_tolerance: cusp::ROW.default_tolerance,
+    tolerances: cusp::ROW.tolerances,
+    greatest_density: Some(1.0),
     is_distance: true,
     error: ErrorRule::Slope(&FilamentRoundness),
 };

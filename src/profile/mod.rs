@@ -101,6 +101,18 @@ impl Metric {
         self.row().default_tolerance
     }
 
+    /// Usual tolerances, from and to, in the metric's unit. Forms take no others; the core takes all that [`Quantity::Tolerance`] allows.
+    ///
+    /// [`Quantity::Tolerance`]: crate::quantity::Quantity::Tolerance
+    pub(crate) fn tolerances(self) -> [f64; 2] {
+        self.row().tolerances
+    }
+
+    /// The greatest density; `None` if it depends on the model.
+    pub(crate) fn greatest_density(self) -> Option<f32> {
+        self.row().greatest_density
+    }
+
     /// Formats an error or tolerance with its unit, to at most four decimals; a fraction is shown as a percentage.
     pub fn format(self, error: f64) -> String {
         let (number, unit) = match self {
@@ -124,6 +136,10 @@ struct Row {
     unit: &'static str,
     /// Default tolerance on resin printers, in that unit.
     default_tolerance: f64,
+    /// Usual tolerances, from and to: the last is the error of a layer of 1 mm, or more than any model's.
+    tolerances: [f64; 2],
+    /// Greatest density; `None` if it depends on the model.
+    greatest_density: Option<f32>,
     /// True if errors are distances of the print from the model.
     is_distance: bool,
     error: ErrorRule,

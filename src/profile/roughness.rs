@@ -10,6 +10,8 @@ pub(super) const ROW: Row = Row {
     name: "roughness",
     unit: "mm",
     default_tolerance: 0.1,
+    tolerances: [0.001, 2.0],
+    greatest_density: Some(CAP),
     is_distance: false,
     error: ErrorRule::Slope(&Roughness),
 };

@@ -12,6 +12,8 @@ pub(super) const ROW: Row = Row {
     name: "volume",
     unit: "mm³",
     default_tolerance: 1.0,
+    tolerances: [0.001, 1e6],
+    greatest_density: None,
     is_distance: false,
     error: ErrorRule::Volume,
 };

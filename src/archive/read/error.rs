@@ -5,7 +5,10 @@ use serde::Serialize;
 use super::Format;
 
 /// Names of the formats that can be read, for a sentence.
-const KNOWN: &str = "png, chitubox, uvj, sl1, nanodlp, goo, ctb, photon-workshop or anycubic-zip";
+fn known() -> String {
+    let [others @ .., last] = Format::MASKS.map(Format::name);
+    format!("{} or {last}", others.join(", "))
+}
 
 /// A kind of print file that is recognised, and cannot be read.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, Serialize)]
@@ -39,7 +42,10 @@ impl UnreadKind {
 #[non_exhaustive]
 pub enum PrintFileError {
     /// Neither a zip nor a binary print file.
-    #[error("it is no print file that can be read; give one in the format {KNOWN}")]
+    #[error(
+        "it is no print file that can be read; give one in the format {}",
+        known()
+    )]
     UnknownKind,
     /// A zip, but damaged.
     #[error("it is a damaged zip ({system}); copy or export it again")]
@@ -50,7 +56,8 @@ pub enum PrintFileError {
     /// A zip, but without the settings of any known format.
     #[error(
         "it is a zip without the settings of any known format, such as run.gcode or manifest.json, so its heights are \
-         unknown; give a print file in the format {KNOWN}"
+         unknown; give a print file in the format {}",
+        known()
     )]
     UnknownZip,
     /// A 3MF: a model without masks, maybe with layers for slicers of filament printers.
@@ -75,8 +82,9 @@ pub enum PrintFileError {
     EncryptedCtb,
     /// A print file of a kind that cannot be read.
     #[error(
-        "it is {}, which cannot be read; save it again in the format {KNOWN}",
-        kind.in_words()
+        "it is {}, which cannot be read; save it again in the format {}",
+        kind.in_words(),
+        known()
     )]
     Unread {
         /// The kind.

@@ -23,15 +23,10 @@ export const plan = {
   /** Notes on the download: the format of the file, the printer's support for it, and the preparation of the model. */
   file: {
     kinds: {
+      usual: "A .{extension} file.",
       png: "A zip of layer images.",
       chitubox: "A ChiTuBox zip.",
-      uvj: "A UVJ file.",
-      sl1: "A Prusa SL1 file.",
-      goo: "A .{extension} file.",
-      "photon-workshop": "A .{extension} file.",
-      "anycubic-zip": "A .{extension} file.",
       ctb: "A .ctb file of version 3, not encrypted.",
-      nanodlp: "A .{extension} file.",
       "prusa-3mf": "A 3MF for PrusaSlicer.",
       "orca-3mf": "A 3MF for OrcaSlicer and Bambu Studio, untested there so far.",
     },

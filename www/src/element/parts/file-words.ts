@@ -14,7 +14,8 @@ const SETTINGS: Partial<Record<Format, string>> = {
 export function fileWords({ report }: Pick<Result, "report">, printers: readonly KnownPrinter[], { texts, format: { either, mm } }: Language): string {
   const { file: words } = texts;
   const { format, extension, is_read_by_printer: isRead, filament } = report.print_file;
-  const kind = filled(words.kinds[format], { extension });
+  const kinds: Partial<Record<Format, string>> = words.kinds;
+  const kind = filled(kinds[format] ?? words.kinds.usual, { extension });
   if (filament !== undefined) {
     const set = words.match({ thickness: mm(filament.first_layer_mm), setting: SETTINGS[format] ?? "" });
     return words.together({ before: kind, next: set });

@@ -9,7 +9,7 @@ export interface Measure {
   unit: FieldUnit;
   /** Factor from the core's unit to that unit. */
   scale: number;
-  /** Smallest and largest valid tolerance, in that unit; the largest is at most the error of layers of 1 mm. */
+  /** Smallest and largest valid tolerance, in that unit. */
   tolerances: readonly [number, number];
   /** Formats an error or a tolerance with its unit. */
   error(value: number, format: Format): string;
@@ -21,42 +21,30 @@ export interface Measure {
   bound: number | null;
 }
 
-const plainTick = (value: number, format: Format): string => format.tick(value);
-const errorOf =
-  (metric: Metric) =>
-  (value: number, format: Format): string =>
-    format.error(metric, value);
-const length = {
-  unit: "mm",
-  scale: 1,
-  tick: plainTick,
-  density: plainTick,
-} as const;
+type Shown = Pick<Measure, "unit" | "scale" | "tick" | "density">;
 
-export const METRICS: Readonly<Record<Metric, Measure>> = {
-  cusp: { ...length, error: errorOf("cusp"), tolerances: [0.001, 1], bound: 1 },
-  deviation: { ...length, error: errorOf("deviation"), tolerances: [0.0005, 0.5], bound: 1 },
-  "filament-roundness": { ...length, error: errorOf("filament-roundness"), tolerances: [0.001, 1], bound: 1 },
-  roughness: { ...length, error: errorOf("roughness"), tolerances: [0.001, 2], bound: 2 },
+const plain = (value: number, format: Format): string => format.tick(value);
+
+const LENGTH: Shown = { unit: "mm", scale: 1, tick: plain, density: plain };
+
+/** Metrics whose errors are no lengths. */
+const OTHERS: Partial<Record<Metric, Partial<Shown>>> = {
   area: {
     unit: "%",
     scale: 100,
-    tolerances: [0.1, 200],
-    error: errorOf("area"),
     tick: (value, format) => format.percent(value),
     density: (value, format) => format.percent(value, 1),
-    bound: 2,
   },
-  volume: {
-    unit: "mm³",
-    scale: 1,
-    tolerances: [0.001, 1_000_000],
-    error: errorOf("volume"),
-    tick: plainTick,
-    density: (value, format) => format.area(value),
-    bound: null,
-  },
+  volume: { unit: "mm³", density: (value, format) => format.area(value) },
 };
+
+const measures = FACTS.metrics.map(({ name, tolerances: [least, most], greatest_density: bound = null }): [Metric, Measure] => {
+  const shown = { ...LENGTH, ...OTHERS[name] };
+  const { scale } = shown;
+  return [name, { ...shown, tolerances: [least * scale, most * scale], bound, error: (value, format) => format.error(name, value) }];
+});
+
+export const METRICS = Object.fromEntries(measures) as Readonly<Record<Metric, Measure>>;
 
 /** The current name of a metric, given that or its name in earlier versions. */
 export const currentName = (name: string): string => (name === "thread" ? "filament-roundness" : name);

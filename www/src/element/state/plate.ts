@@ -89,7 +89,7 @@ export const USUAL_VOLUME: Pick<Printer, "volume_mm"> = { volume_mm: [192, 120, 
 const USUAL_PIXEL_MM = 0.05;
 
 /** Maximum number of copies per model. */
-export const MOST_COPIES = 1000;
+export const [, MOST_COPIES] = FACTS.usual.copies;
 
 export class Plate {
   entries: readonly Entry[] = [];

@@ -42,11 +42,11 @@ test.each<[string, { printer?: string; format?: PrintFormat; taker?: string }, s
   ["one that reads its own zip", { printer: "photon-m7" }, "A .pm7 file. The Photon M7 reads it directly."],
   ["one that reads ctb", { printer: "saturn" }, "A .ctb file of version 3, not encrypted. The Saturn reads it directly."],
   ["one that reads nanodlp", { printer: "athena" }, "A .nanodlp file. The Athena reads it directly."],
-  ["one that reads uniform layers", { printer: "sl1s" }, "A Prusa SL1 file. The SL1S reads it directly."],
+  ["one that reads uniform layers", { printer: "sl1s" }, "A .sl1s file. The SL1S reads it directly."],
   [
     "one whose file has uniform layers alone",
     { printer: "sl1s", taker: "sl1" },
-    "A Prusa SL1 file. This file has one thickness for all layers: choose uniform ones for it.",
+    "A .sl1s file. This file has one thickness for all layers: choose uniform ones for it.",
   ],
   [
     "one that prints uniform layers alone",

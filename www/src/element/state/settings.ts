@@ -107,7 +107,7 @@ export const RAYS = [512, 1024, 2048, 4096] as const;
 /** Minimum weights offered by the form. 0 is excluded: it would allow any layer on a facet. */
 export const WEIGHT_STEPS: readonly string[] = Array.from({ length: 20 }, (_, i) => String((5 * i + 5) / 100));
 
-const { defaults: DEFAULTS } = FACTS;
+const { defaults: DEFAULTS, usual: USUAL } = FACTS;
 
 export const DEFAULT_SETTINGS: Settings = {
   height: "",
@@ -167,7 +167,8 @@ export function defaultsOf(format: FileFormat | "", nozzle = ""): Settings {
 /** Nozzle diameter as typed; the usual one if invalid. */
 export function nozzleOf(nozzle: string): number {
   const typed = parse(nozzle) ?? Number.NaN;
-  return typed >= NARROWEST_NOZZLE_MM && typed <= WIDEST_NOZZLE_MM ? typed : FACTS.nozzle_mm;
+  const [least, most] = USUAL.nozzle_mm;
+  return typed >= least && typed <= most ? typed : FACTS.nozzle_mm;
 }
 
 /** Change of limits that goes with a change of format or nozzle: limits at their defaults follow the new defaults. */
@@ -329,16 +330,6 @@ export function usualTolerance(metric: Metric, taken: number | null, format: Fil
 
 export type Checked = { ok: true; options: Options } | { ok: false; faults: Faults };
 
-/** Maximum thickness that a resin printer could cure; a larger number is probably in µm. */
-const THICKEST_MM = 1;
-const THINNEST_MM = 0.001;
-const TALLEST_MM = 1000;
-const THICKEST_WALL_MM = 50;
-const [NARROWEST_NOZZLE_MM, WIDEST_NOZZLE_MM] = FACTS.nozzles_mm;
-const LONGEST_S = 600;
-const MOST_BOTTOM_LAYERS = 100;
-const PENETRATION_MM = [0.01, 2] as const;
-
 const NONE: Offered = { printers: [], resins: [] };
 
 /** Options for the core, or all faults at once. Fields that the chosen planner does not use are not checked. */
@@ -346,7 +337,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const faults: Faults = {};
 
   const { metric, planner } = settings;
-  const within = (field: Field, text: string, least: number, most: number): number => {
+  const within = (field: Field, text: string, [least, most]: readonly [number, number]): number => {
     const unit = unitOf(field, metric);
     const { value, fault } = read(text, unit);
     if (value === null) faults[field] = { kind: fault, value, least, most, unit };
@@ -363,13 +354,13 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   else options.printer = settings.printer;
   if (settings.format !== "") options.format = settings.format;
   if (isFilament(settings.format) && settings.nozzle.trim() !== "") {
-    options.nozzle_mm = within("nozzle", settings.nozzle, NARROWEST_NOZZLE_MM, WIDEST_NOZZLE_MM);
+    options.nozzle_mm = within("nozzle", settings.nozzle, USUAL.nozzle_mm);
   }
   if (settings.unit !== "") options.unit = settings.unit;
-  const [thinnest, thickest] = printer?.layer_mm ?? [THINNEST_MM, THICKEST_MM];
+  const layers_mm = printer?.layer_mm ?? USUAL.layer_mm;
   const layer = (field: "layerMin" | "layerMax" | "uniform" | "supportLayer"): number =>
-    within(field, settings[field], thinnest, thickest);
-  if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, 0.1, TALLEST_MM);
+    within(field, settings[field], layers_mm);
+  if (settings.height.trim() !== "") options.height_mm = within("height", settings.height, USUAL.height_mm);
 
   const isProtecting = settings.protect === "on";
   // Slicers for filament printers add supports and hollow by themselves.
@@ -385,7 +376,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     if (isProtecting) options.supports.protect = true;
   }
   if (settings.wall.trim() !== "" && !isFilament(settings.format)) {
-    options.hollow = { wall_mm: within("wall", settings.wall, FACTS.wall_least_mm, THICKEST_WALL_MM) };
+    options.hollow = { wall_mm: within("wall", settings.wall, USUAL.wall_mm) };
     if (settings.infill === "lattice") options.hollow.infill = {};
     const drains = placedFrom(settings.drains, "drains") ?? [];
     if (drains.length > 0) {
@@ -402,7 +393,7 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
     options.planner = { kind: planner };
     options.minimize = settings.minimize;
     options.snap = settings.snap;
-    if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = within("step", settings.step, THINNEST_MM, THICKEST_MM);
+    if (planner === "optimal" && settings.step.trim() !== "") options.step_mm = within("step", settings.step, USUAL.step_mm);
   }
   // Both planners need the range, which also defines the two uniform plans for comparison.
   const min = (options.layer_min_mm = layer("layerMin"));
@@ -418,21 +409,21 @@ export function check(settings: Settings, { printers, resins }: Offered = NONE):
   const typed = settings.tolerances[metric] ?? "";
   if (typed.trim() !== "") {
     const { tolerances, scale } = METRICS[metric];
-    options.tolerance = within("tolerance", typed, ...tolerances) / scale;
+    options.tolerance = within("tolerance", typed, tolerances) / scale;
   }
 
   const resin: Resin = { ...resins.find(({ name }) => name === settings.resin) };
-  if (settings.exposure.trim() !== "") resin.exposure_s = within("exposure", settings.exposure, 0.1, LONGEST_S);
+  if (settings.exposure.trim() !== "") resin.exposure_s = within("exposure", settings.exposure, USUAL.exposure_s);
   if (settings.bottomExposure.trim() !== "") {
-    resin.bottom_exposure_s = within("bottomExposure", settings.bottomExposure, 0.1, LONGEST_S);
+    resin.bottom_exposure_s = within("bottomExposure", settings.bottomExposure, USUAL.exposure_s);
   }
   if (settings.bottomLayers.trim() !== "") {
-    const layers = (resin.bottom_layers = within("bottomLayers", settings.bottomLayers, 0, MOST_BOTTOM_LAYERS));
+    const layers = (resin.bottom_layers = within("bottomLayers", settings.bottomLayers, USUAL.bottom_layers));
     if (!Number.isInteger(layers)) faults.bottomLayers ??= { kind: "whole" };
   }
-  if (settings.penetration.trim() !== "") resin.penetration_mm = within("penetration", settings.penetration, ...PENETRATION_MM);
-  if (settings.overcure.trim() !== "") resin.print_through = { ...resin.print_through, overcure_mm: within("overcure", settings.overcure, 0, 1) };
-  if (resin.print_through && settings.retained.trim() !== "") resin.print_through.retained = within("retained", settings.retained, 0, 1);
+  if (settings.penetration.trim() !== "") resin.penetration_mm = within("penetration", settings.penetration, USUAL.penetration_mm);
+  if (settings.overcure.trim() !== "") resin.print_through = { ...resin.print_through, overcure_mm: within("overcure", settings.overcure, USUAL.overcure_mm) };
+  if (resin.print_through && settings.retained.trim() !== "") resin.print_through.retained = within("retained", settings.retained, USUAL.retained);
   if (Object.keys(resin).length > 0) options.resin = resin;
 
   const rotation = quaternion(settings.rotation);
@@ -456,7 +447,7 @@ export function faultWords(fault: Fault, { texts: { faults }, format }: Language
       const words = faults[kind]({ range });
       if (value === null) return words;
       const asMicrometres = value / 1000;
-      const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < TALLEST_MM;
+      const isSlip = unit === "mm" && value > most && asMicrometres >= least && most < USUAL.height_mm[1];
       return isSlip ? `${words} ${faults.micrometres({ typed: format.tick(value), mm: format.tick(asMicrometres) })}` : words;
     }
   }

@@ -66,14 +66,14 @@ function boundsOf(field: SizeField, settings: Typed, strength: SupportStrength):
 export function profileOf(
   settings: Typed,
   strength: SupportStrength,
-  within: (field: SizeField, text: string, least: number, most: number) => number,
+  within: (field: SizeField, text: string, range: readonly [number, number]) => number,
 ): SupportProfile | null {
   const hasRaft = settings.raft === "on";
   const profile: SupportProfile = hasRaft ? { raft: true } : {};
   for (const field of SIZE_FIELDS) {
     const isUnused = !hasRaft && (field === "raftThickness" || field === "raftMargin");
     if (isUnused || settings[field].trim() === "") continue;
-    const size = within(field, settings[field], ...boundsOf(field, settings, strength));
+    const size = within(field, settings[field], boundsOf(field, settings, strength));
     if (size !== usualSize(field, strength)) profile[NAMES[field]] = field === "supportAngle" ? slopeOf(size) : size;
   }
   return Object.keys(profile).length === 0 ? null : profile;
