@@ -14,6 +14,7 @@ import { rolldown, type OutputChunk, type Plugin } from "rolldown";
 import { anyLanguage } from "./any-language.js";
 import { bill, crateParts, noticesOf, npmParts } from "./bill.js";
 import { dictionaries } from "./dictionaries.js";
+import { reference } from "./reference.js";
 
 const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
@@ -182,6 +183,7 @@ async function describe(chunks: readonly OutputChunk[]): Promise<void> {
   await writeFile(join(out, "package.json"), `${JSON.stringify(description, null, 2)}\n`);
   const guide = await readFile(join(root, "../docs/embed.md"), "utf8");
   await writeFile(join(out, "README.md"), withoutFiles(guide, repository === undefined ? undefined : `${repository}/blob/v${version}`));
+  await writeFile(join(out, "REFERENCE.md"), await reference());
   for (const name of ["LICENSE-APACHE", "LICENSE-MIT"]) await copyFile(join(root, "..", name), join(out, name));
 }
 

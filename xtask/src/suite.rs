@@ -38,7 +38,7 @@ pub enum Step {
     Native,
     /// Instructions, allocations and bytes of print files, against benches/counts.json
     Counts,
-    /// Print files, read by the crates of others, and jobs distributed as docs/cluster.md does
+    /// Print files, read by the crates of others, and jobs distributed by examples/dask
     Interop,
     /// The comparisons of GPU and CPU once more, on the Vulkan driver that Chromium ships
     Gpu,

@@ -1,4 +1,4 @@
-"""Runs the programs of docs/cluster.md on two workers, and holds their results to those of a single process.
+"""Runs the programs of examples/dask on two workers, and holds their results to those of a single process.
 
     CUSP=PATH/OF/cusp python -m unittest -v
 """
@@ -8,7 +8,7 @@ from __future__ import annotations
 import json
 import logging
 import os
-import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -20,8 +20,8 @@ from distributed import Client, LocalCluster
 
 from common import CUSP, PATIENCE, write_frustum
 
-PAGE = Path(__file__).parents[3] / "docs" / "cluster.md"
-# Shards of a model, as the page has them.
+PROGRAMS = Path(__file__).parents[3] / "examples" / "dask"
+# Shards of a model, as orient.py has them.
 SHARDS = 8
 
 WEDGE = [(0, 0), (8, 0), (8, 5), (0, 5)], [(0, 0), (5, 0), (5, 5), (0, 5)], 6
@@ -68,9 +68,8 @@ class Cluster(unittest.TestCase):
         )
         cls.scheduler = cls.enterClassContext(cluster).scheduler_address
         cls.client = cls.enterClassContext(Client(cluster))
-        programs = re.findall(r"```python\n(.*?)```", PAGE.read_text(encoding="utf-8"), re.DOTALL)
-        for name, program in zip(["orient.py", "slice.py"], programs, strict=True):
-            (home / name).write_text(program, encoding="utf-8")
+        for name in ["orient.py", "slice.py"]:
+            shutil.copy(PROGRAMS / name, home / name)
         cls.home = home
 
     def setUp(self) -> None:

@@ -29,12 +29,13 @@ export interface Painted {
 export interface CuspSlicerEvents {
   /** A model was read. */
   "cusp-load": CustomEvent<Model>;
-  /** A new plan is ready. */
+  /** A plan is ready: that of the plate on show. */
   "cusp-plan": CustomEvent<Plan>;
   /** The plan was priced by the property `prices`. */
   "cusp-price": CustomEvent<Price>;
   /** A plan was checked for printing faults: while a panel shows the findings, or if the property `limits` is set. */
   "cusp-check": CustomEvent<Check>;
+  /** A task advanced: its stage, the fractions of stage and task, and the seconds left. */
   "cusp-progress": CustomEvent<ProgressDetail>;
   /** The download button was pressed. Cancelable: `preventDefault()` keeps the browser from saving the print file. */
   "cusp-export": CustomEvent<PrintFile>;
@@ -42,7 +43,7 @@ export interface CuspSlicerEvents {
   "cusp-error": CustomEvent<SlicerError>;
   /** The user or a script changed the weights. */
   "cusp-paint": CustomEvent<Painted>;
-  /** The user chose an orientation; the plan follows. */
+  /** The user chose one of the orientations that a search found; its plan follows. */
   "cusp-orientation": CustomEvent<Candidate>;
   /** The user or a script changed the settings. */
   "cusp-change": CustomEvent<ChangeDetail>;

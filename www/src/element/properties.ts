@@ -1,6 +1,6 @@
 /**
  * Single source of the properties that a page may set on `<cusp-slicer>`: Lit's declarations, the checks of attributes and the types for
- * frameworks derive from it. Tests compare the class and the tables of docs/embed.md with it.
+ * frameworks derive from it. A test compares the class with it.
  */
 import type { PropertyDeclaration } from "lit";
 import type { Backend, GpuMethod } from "../api/wire.js";

@@ -53,7 +53,7 @@ export abstract class SettableElement extends LitElement {
     this.requestUpdate();
   }
 
-  /** Panels to show, separated by spaces; see {@link PANELS}. Null shows all. */
+  /** Panels to show, separated by spaces; null shows all. */
   get panels(): string | null {
     return this.#panels?.join(" ") ?? null;
   }
@@ -65,8 +65,8 @@ export abstract class SettableElement extends LitElement {
   }
 
   /**
-   * Attributes that only the page may change, separated by spaces: printer, format, resin, metric, tolerance, layer-min, layer-max. The
-   * form shows them read-only; undo, offers and the property `query` do not change them.
+   * Attributes that only the page may change, separated by spaces. The form shows them read-only; undo, offers and the property `query` do
+   * not change them.
    */
   get fixed(): string | null {
     return this.#fixed?.join(" ") ?? null;
@@ -95,7 +95,7 @@ export abstract class SettableElement extends LitElement {
     this.judged.set("resin", resin);
   }
 
-  /** Maximum error of a layer: mm (cusp, deviation, filament-roundness, roughness), a fraction (area) or mm³ (volume). Null for the default. */
+  /** Maximum error of a layer, in the unit of the metric: mm, mm³ for volume, a fraction for area. Null for the default. */
   get tolerance(): number | null {
     const { metric, tolerances } = this.session.settings;
     const typed = parse(tolerances[metric] ?? "");
@@ -172,7 +172,7 @@ export abstract class SettableElement extends LitElement {
     this.session.replan();
   }
 
-  /** Importance of each facet, 0 to 1 in the order of `slicer.positions()`; null: all equal. Setting it plans again. */
+  /** Weight of each facet, 0 to 1 in the order of `slicer.positions()`; null: all equal. Setting it plans again. */
   get weights(): Float32Array | null {
     return this.session.weights;
   }

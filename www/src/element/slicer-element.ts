@@ -43,7 +43,7 @@ export interface Handwork {
 export abstract class SlicerElement extends SettableElement {
   static override properties = { ...DECLARATIONS, dragging: { state: true } };
 
-  /** URL of a model (3MF, OBJ or STL), opened when set. */
+  /** URL of a model (3MF, OBJ or STL), which is opened. */
   declare src: string | null;
   /** @internal */
   declare dragging: boolean;
@@ -122,7 +122,7 @@ export abstract class SlicerElement extends SettableElement {
    * Opens a model and starts to plan it. Given several files, puts all on one plate if the panel `plate` is shown; otherwise opens the
    * first.
    *
-   * @throws SlicerError; an `AbortError` if cancelled, or if another model was opened meanwhile.
+   * @throws a `SlicerError`; an `AbortError` if cancelled, or if another model was opened meanwhile.
    */
   async load(source: Source | readonly File[], name?: string): Promise<Model> {
     const model = isFiles(source) ? await this.#choose(source) : await this.session.open(source, name);
@@ -133,7 +133,7 @@ export abstract class SlicerElement extends SettableElement {
   /**
    * Adds a model to the open ones, with its own copies and pose, and plans all together. If none is open, opens it.
    *
-   * @throws as {@link load}
+   * @throws the errors of {@link load}.
    */
   async add(source: Source, own: Partial<ModelOnPlate["own"]> = {}, name?: string): Promise<Model> {
     const added = { source, own, ...(name !== undefined && { name }) };
@@ -165,7 +165,7 @@ export abstract class SlicerElement extends SettableElement {
   /**
    * Print file of that plan; does not save it. Rejects with `no-plan` if no model is open, otherwise as {@link plan} does.
    *
-   * @param plate index of the plate, from 0; by default the one shown
+   * @param plate index of the plate, from 0; by default the one shown.
    */
   async export(plate?: number): Promise<PrintFile> {
     if (this.model !== null) await this.plan();
@@ -178,7 +178,7 @@ export abstract class SlicerElement extends SettableElement {
    * A square PNG of the open model in the layers of its plan, on a transparent background, for a basket or a list of orders. Rejects with
    * `part-failed` if the renderer cannot be loaded or WebGL is missing.
    *
-   * @param size_px length of each side in pixels, clamped to 16 to 2048
+   * @param size_px length of each side in pixels, clamped to 16 to 2048.
    */
   async thumbnail(size_px = THUMBNAIL_PX): Promise<Blob> {
     await this.plan();
@@ -199,10 +199,12 @@ export abstract class SlicerElement extends SettableElement {
     this.session.orientation.cancel();
   }
 
+  /** Undoes the last change of settings, models, copies or places. */
   undo(): void {
     this.session.undo();
   }
 
+  /** Repeats the last change that was undone. */
   redo(): void {
     this.session.redo();
   }
