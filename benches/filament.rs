@@ -1,5 +1,5 @@
 //! `cargo xtask bench filament MODEL=HEIGHT...`: layers for a filament printer compared with the adaptive layers of
-//! `PrusaSlicer`, for which its command line has no switch. Its planner is written again here from its description in
+//! PrusaSlicer, for which its command line has no switch. Its planner is written again here from its description in
 //! docs/filament.md.
 //!
 //! Prints a table: for each model and quality, layers and largest cusp of that planner, the layers that Cusp needs for that cusp, and

@@ -14,9 +14,9 @@ pub const NOZZLES_MM: [f64; 2] = [0.15, 2.0];
 /// A slicer for filament printers, or several that read the same file.
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum FilamentSlicer {
-    /// `PrusaSlicer`.
+    /// PrusaSlicer.
     Prusa,
-    /// `OrcaSlicer` and Bambu Studio.
+    /// OrcaSlicer and Bambu Studio.
     Orca,
 }
 
@@ -69,13 +69,13 @@ impl FilamentSlicer {
         }
     }
 
-    /// Returns true if it is known that they print the layers of a plan as they are: for `PrusaSlicer`, tests compare them.
+    /// Returns true if it is known that they print the layers of a plan as they are: for PrusaSlicer, tests compare them.
     pub fn is_tried(self) -> bool {
         self == Self::Prusa
     }
 
-    /// The limits of layers: what the slicer has by default, or, for `OrcaSlicer` and Bambu Studio, what their printers' own profiles
-    /// have. Bambu's nozzles of 0.2, 0.4, 0.6 and 0.8 mm print 0.2 to 0.7 times their width; `PrusaSlicer` prints from 0.07 mm to
+    /// The limits of layers: what the slicer has by default, or, for OrcaSlicer and Bambu Studio, what their printers' own profiles
+    /// have. Bambu's nozzles of 0.2, 0.4, 0.6 and 0.8 mm print 0.2 to 0.7 times their width; PrusaSlicer prints from 0.07 mm to
     /// 0.75 times the width.
     pub fn rule(self) -> LayerRule {
         let [least_mm, least_percent, most_percent] = match self {

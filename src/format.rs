@@ -12,7 +12,7 @@ pub enum Format {
     /// One-bit PNGs and a manifest.json.
     #[default]
     Png,
-    /// The zip of `ChiTuBox`: run.gcode with a height and an exposure for every layer.
+    /// The zip of ChiTuBox: run.gcode with a height and an exposure for every layer.
     Chitubox,
     /// UVJ: config.json with a height and an exposure for every layer.
     Uvj,
@@ -26,13 +26,13 @@ pub enum Format {
     AnycubicZip,
     /// CTB, version 3, not encrypted.
     Ctb,
-    /// `NanoDLP`, for layers of one thickness.
+    /// NanoDLP, for layers of one thickness.
     Nanodlp,
-    /// A 3MF for `PrusaSlicer`: the model, and the heights of its layers, which filament printers print.
+    /// A 3MF for PrusaSlicer: the model, and the heights of its layers, which filament printers print.
     #[serde(rename = "prusa-3mf")]
     #[cfg_attr(feature = "cli", value(name = "prusa-3mf"))]
     Prusa3mf,
-    /// The same for `OrcaSlicer` and Bambu Studio; untried.
+    /// The same for OrcaSlicer and Bambu Studio; untried.
     #[serde(rename = "orca-3mf")]
     #[cfg_attr(feature = "cli", value(name = "orca-3mf"))]
     Orca3mf,

@@ -243,7 +243,7 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
     assert_eq!(sides, [90, 90, 92, 94, 96, 98, 98, 98, 98, 98]);
 }
 
-/// The rule of `PrusaSlicer`, in whole layers: a pixel stays lit if it is lit in the n layers below as well.
+/// The rule of PrusaSlicer, in whole layers: a pixel stays lit if it is lit in the n layers below as well.
 #[test]
 fn raised_entries_are_those_of_counted_layers() {
     for (name, triangles) in solids::all() {

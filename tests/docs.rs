@@ -45,7 +45,10 @@ fn the_command_lines_document_names_the_defaults_of_the_library() {
 
 #[test]
 fn the_elements_document_names_the_least_weight_of_the_library() {
-    let said = format!("`weight_min` ({} by default)", Options::default().weight_min);
+    let said = format!(
+        "`weight_min` ({} by default)",
+        Options::default().weight_min
+    );
     assert_says(EMBED, &said);
 }
 

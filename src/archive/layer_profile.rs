@@ -32,7 +32,7 @@ fn profile_name(slicer: FilamentSlicer) -> &'static str {
     }
 }
 
-/// Application that the file names as its author. Bambu Studio and `OrcaSlicer` take only the mesh from files of other
+/// Application that the file names as its author. Bambu Studio and OrcaSlicer take only the mesh from files of other
 /// programs.
 fn application(slicer: FilamentSlicer) -> &'static str {
     match slicer {

@@ -2,7 +2,7 @@
 //! largest |`n_z`| of the surface in each bin. The error of a layer is in millimetres.
 //!
 //! Layers show on a vertical wall as well: Wasserfall, Hendrich and Zhang, "Adaptive slicing for the FDM
-//! process revisited", *IEEE CASE* 2017, measured that it leaves an error of 0.184 times the thickness of the layer. `PrusaSlicer`
+//! process revisited", *IEEE CASE* 2017, measured that it leaves an error of 0.184 times the thickness of the layer. PrusaSlicer
 //! limits its adaptive layers by the same number.
 
 use super::{ErrorRule, Row, SlopeDensity, cusp};

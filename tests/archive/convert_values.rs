@@ -143,7 +143,7 @@ const USUAL_S: f64 = 10.0;
 /// Number of layers of the fade.
 const FADED: usize = 10;
 
-/// An SL1 file as `PrusaSlicer` writes it, with a fade: three numbers say all exposures.
+/// An SL1 file as PrusaSlicer writes it, with a fade: three numbers say all exposures.
 fn faded() -> Vec<u8> {
     let (file, _) = ball(Format::Sl1);
     with_files(&file, |name, contents| {

@@ -1,4 +1,4 @@
-//! Models that other programs write, and what others say of them: lib3mf, trimesh and `PrusaSlicer`.
+//! Models that other programs write, and what others say of them: lib3mf, trimesh and PrusaSlicer.
 
 use std::collections::HashMap;
 use std::fs;

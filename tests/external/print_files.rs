@@ -220,7 +220,7 @@ fn unzip_finds_nothing() -> Result<(), Failed> {
     print_files(|path, _, _| succeeds(Command::new("unzip").arg("-tq").arg(path)).map(|_| ()))
 }
 
-/// `prusa-slicer` hollows by a level set (`OpenVDB`): inward by the wall and a closing distance, and back by that.
+/// `prusa-slicer` hollows by a level set (OpenVDB): inward by the wall and a closing distance, and back by that.
 fn hollow_models_take_the_resin_of_prusa_slicers() -> Result<(), Failed> {
     const PIXELS: u32 = 640;
     const SIDE_MM: f64 = 64.0;

@@ -1,4 +1,4 @@
-//! A 3MF as its readers see it, and what `PrusaSlicer` makes of a layer height profile.
+//! A 3MF as its readers see it, and what PrusaSlicer makes of a layer height profile.
 
 use std::io::{Cursor, Read};
 
@@ -93,7 +93,7 @@ pub fn profile_name(format: Format) -> &'static str {
     }
 }
 
-/// The tops of the layers that `PrusaSlicer` makes of a profile; `None` if it drops the profile in silence.
+/// The tops of the layers that PrusaSlicer makes of a profile; `None` if it drops the profile in silence.
 pub fn layers_of_prusa_slicer(
     profile: &[f64],
     height_mm: f64,

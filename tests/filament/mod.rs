@@ -107,7 +107,7 @@ fn a_slicer_makes_every_layer_of_the_plan_and_no_other() {
     }
 }
 
-/// Bambu Studio and `OrcaSlicer` drop the whole profile unless it keeps these rules.
+/// Bambu Studio and OrcaSlicer drop the whole profile unless it keeps these rules.
 #[test]
 fn the_stricter_rules_of_orca_slicer_hold() {
     for nozzle_mm in [0.2, 0.4, 0.6, 0.8] {

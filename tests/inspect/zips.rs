@@ -1,4 +1,4 @@
-//! Zips: `NanoDLP` and Anycubic from their descriptions, and the peculiarities of zips.
+//! Zips: NanoDLP and Anycubic from their descriptions, and the peculiarities of zips.
 
 use cusp_slicer::archive::read::{FileFinding, LayerFault, PrintFileError, UnreadKind};
 use cusp_slicer::format::Format;

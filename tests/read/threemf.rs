@@ -80,7 +80,7 @@ fn drafts_of_the_format_and_relative_targets_are_read() {
     }
 }
 
-/// A project of `OrcaSlicer`: a block, with a hole, a region and two supports that are only hints, and a second block on another plate.
+/// A project of OrcaSlicer: a block, with a hole, a region and two supports that are only hints, and a second block on another plate.
 fn project() -> Vec<u8> {
     let block = solids::cuboid(Vec3::new(20.0, 20.0, 10.0));
     let hole = solids::moved(

@@ -68,7 +68,7 @@ fn every_format_says_where_its_pixels_are() {
     }
 }
 
-/// An SL1 file as `PrusaSlicer` 2.5 writes it: what its reader needs, and the masks as its rasteriser orients them, for
+/// An SL1 file as PrusaSlicer 2.5 writes it: what its reader needs, and the masks as its rasteriser orients them, for
 /// which the plate's pixel whose corner of smallest coordinates is at `[x, y]` · 0.05 mm is lit if `is_lit` says so of its
 /// middle. The plate is 8 × 6 mm.
 fn by_prusa_slicer(

@@ -1,4 +1,4 @@
-//! The zip of `ChiTuBox`: run.gcode begins with settings in comments, and moves the plate to each layer's height.
+//! The zip of ChiTuBox: run.gcode begins with settings in comments, and moves the plate to each layer's height.
 
 use std::collections::HashMap;
 

@@ -16,7 +16,7 @@ fn known() -> String {
 #[serde(rename_all = "kebab-case")]
 #[non_exhaustive]
 pub enum UnreadKind {
-    /// The file of the first `ChiTuBox` printers: photon and cbddlp.
+    /// The file of the first ChiTuBox printers: photon and cbddlp.
     Cbddlp,
     /// A file of Photon Workshop whose masks are planes of bits: pws, pw0 and pwx.
     PlanesOfBits,

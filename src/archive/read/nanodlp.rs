@@ -1,4 +1,4 @@
-//! `NanoDLP`: a zip of JSON and PNGs, in which each colour of a pixel is a pixel of the screen. Layers have one thickness,
+//! NanoDLP: a zip of JSON and PNGs, in which each colour of a pixel is a pixel of the screen. Layers have one thickness,
 //! or two if bottom layers have their own.
 
 use super::bytes::clean;

@@ -1,6 +1,6 @@
-//! Prusa's SL1 and SL1S, as `PrusaSlicer` and Cusp write them: config.ini and prusaslicer.ini.
+//! Prusa's SL1 and SL1S, as PrusaSlicer and Cusp write them: config.ini and prusaslicer.ini.
 //!
-//! `PrusaSlicer` states the display in landscape. With `display_orientation = portrait` it draws a mask with x and y
+//! PrusaSlicer states the display in landscape. With `display_orientation = portrait` it draws a mask with x and y
 //! exchanged, and mirrored once more than `display_mirror_x` says (`RasterBase::Trafo`). Cusp draws a portrait mask as the
 //! model stands.
 

@@ -1,4 +1,4 @@
-//! The zip of `ChiTuBox`: masks `1.png` and so on, and run.gcode, which gives each layer its own height and exposure. A
+//! The zip of ChiTuBox: masks `1.png` and so on, and run.gcode, which gives each layer its own height and exposure. A
 //! dozen printers read it, and other programs convert it.
 
 use std::fmt::Write as _;

@@ -1,4 +1,4 @@
-//! `NanoDLP`: masks `1.png` and so on, three pixels of the screen in a pixel of the image, and settings as JSON, with one
+//! NanoDLP: masks `1.png` and so on, three pixels of the screen in a pixel of the image, and settings as JSON, with one
 //! thickness for all layers.
 //!
 //! Fields that nothing is known to depend on are 0 or empty, as in files of other slicers. Readers disagree on which

@@ -1,4 +1,4 @@
-//! `NanoDLP` files, read by mslicer's crate: every setting, area and pixel.
+//! NanoDLP files, read by mslicer's crate: every setting, area and pixel.
 
 mod common;
 

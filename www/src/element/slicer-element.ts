@@ -12,7 +12,6 @@ import { isFiles, isNamedAsProject } from "./state/choice.js";
 import type { CuspSlicerEvents } from "./events.js";
 import { watchGestures } from "./gestures.js";
 import { chosen } from "./parts/chosen.js";
-import { langOf } from "./parts/lang.js";
 import { DECLARATIONS } from "./properties.js";
 import type { Facts } from "./facts.js";
 import { definePanels } from "./panels/index.js";
@@ -365,4 +364,15 @@ const THUMBNAIL_PX = 400;
 
 declare global {
   interface HTMLElementEventMap extends CuspSlicerEvents {}
+}
+
+/** Nearest `lang` of an element or its ancestors, across shadow roots; null if there is none. */
+function langOf(element: Element): string | null {
+  for (let at: Element | null = element; at !== null; ) {
+    const found: Element | null = at.closest("[lang]");
+    if (found !== null) return found.getAttribute("lang");
+    const root: Node = at.getRootNode();
+    at = root instanceof ShadowRoot ? root.host : null;
+  }
+  return null;
 }

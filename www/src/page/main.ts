@@ -13,7 +13,6 @@ import { isModel } from "./is-model.js";
 import { askBeforeLeaving } from "./leaving.js";
 import type { Notice } from "./notice.js";
 import { openAnywhere } from "./open-anywhere.js";
-import { workOffline } from "./offline.js";
 import type { CuspWorkbench } from "../workbench/cusp-workbench.js";
 import { pageWords } from "./texts.js";
 import { Visit } from "./visit.js";
@@ -175,3 +174,10 @@ function fetchAhead(): void {
 }
 
 void start();
+
+/** Makes the page work offline once loaded: see service-worker.ts. Does not apply to the element in other pages. */
+function workOffline(): void {
+  if (!import.meta.env.PROD || !("serviceWorker" in navigator)) return;
+  // If the browser refuses, as in a private window, the page still works online.
+  navigator.serviceWorker.register(new URL("./service-worker.js", document.baseURI)).catch(() => undefined);
+}

@@ -1,4 +1,4 @@
-//! Slicers' own files in a 3MF: the parts that are subtracted, the parts that only guide the slicer, and the parts of each plate. `OrcaSlicer` and Bambu Studio name components, `PrusaSlicer` ranges of facets.
+//! Slicers' own files in a 3MF: the parts that are subtracted, the parts that only guide the slicer, and the parts of each plate. OrcaSlicer and Bambu Studio name components, PrusaSlicer ranges of facets.
 
 use std::ops::RangeInclusive;
 
@@ -10,9 +10,9 @@ use super::{ThreeMfError, XmlFault};
 use crate::model::read::text::named;
 use crate::model::read::{Part, PartKind};
 
-/// The file of `OrcaSlicer` and Bambu Studio.
+/// The file of OrcaSlicer and Bambu Studio.
 const ORCA: &str = "Metadata/model_settings.config";
-/// The file of `PrusaSlicer`.
+/// The file of PrusaSlicer.
 const PRUSA: &str = "Metadata/Slic3r_PE_model.config";
 
 /// The attributes that matter.
