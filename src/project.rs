@@ -61,7 +61,7 @@ pub struct ProjectModel {
 pub type ModelBytes = (Vec<u8>, Vec<u8>);
 
 impl Project {
-    /// Reads a project; `None` if the bytes are none.
+    /// Reads a project; `None` if the bytes are no project.
     ///
     /// # Errors
     /// [`Error::Read`] if it is damaged, [`Error::Options`] if its part cannot be read.

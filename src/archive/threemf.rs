@@ -1,4 +1,4 @@
-//! What all 3MF files have that are written here: a zip with the types of its parts, a relationship to the model, and meshes as XML.
+//! Common parts of the 3MF files written here: a zip with the types of its parts, a relationship to the model, and meshes as XML.
 
 use std::io::{self, BufWriter, Write};
 

@@ -284,7 +284,7 @@ fn check_own_prepared(
     })
 }
 
-/// The layering of a plate: that of the options, with the height ranges of the models on it and of what is below them all.
+/// The layering of a plate: that of the options, with the height ranges of the models on it and of the supports below them all.
 pub(super) fn layering_of(
     options: &JobOptions,
     layout: &Layout,

@@ -53,7 +53,7 @@ pub fn run(project: &Project, scratch: &Path) -> Result<Tally> {
     } else if counted["compiler"] != recorded["compiler"] && !is_blessed {
         let (by, now) = (&recorded["compiler"], &counted["compiler"]);
         Some(format!(
-            "recorded with {by}, not {now}: BLESS=1 cargo xtask counts records anew"
+            "recorded with {by}, not {now}: BLESS=1 cargo xtask counts records them again"
         ))
     } else {
         count_instructions(&executable, scratch, &mut counted)?;

@@ -74,7 +74,7 @@ fn printer(manifest: &Value) -> Option<&str> {
     names.into_iter().find_map(Value::as_str)
 }
 
-/// The copies, or `None` if their numbers are none.
+/// The copies, or `None` if a number of theirs is invalid.
 fn copies(manifest: &Value) -> Option<Vec<PrintedCopy>> {
     let models = manifest["models"].as_array()?;
     let copy = |place: &Value| {

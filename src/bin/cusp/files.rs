@@ -79,7 +79,7 @@ impl Reading {
     }
 }
 
-/// Reads a model. A file that is none is refused by its first bytes.
+/// Reads a model. Any other file is refused by its first bytes.
 pub fn load(model: &Path, options: &ReadOptions) -> Result<LoadedModel, Failure> {
     if !is_standard(model) {
         let head = head_of(model).map_err(|error| in_file(model, &error))?;

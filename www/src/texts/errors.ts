@@ -193,7 +193,7 @@ export const errorNames = {
     "return-speed": "The return speed",
     density: "The resin density",
   },
-  /** What a text STL file should have; its keywords are the same in every language. */
+  /** Expected contents of a text STL file; its keywords are the same in every language. */
   stl: {
     solid: "`solid`",
     normal: "`normal`",
@@ -207,7 +207,7 @@ export const errorNames = {
   },
 } as const satisfies { quantities: Record<Quantity, string>; stl: Record<StlExpected, string> } & typeof readerNames;
 
-/** What to say of a file that is no model. */
+/** Advice on a file that is no model. */
 const SORTS = {
   ...{ amf: "model", ply: "model", step: "model", gltf: "model" },
   ...{ zip: "packed", gzip: "packed", html: "page" },

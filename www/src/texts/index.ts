@@ -40,8 +40,8 @@ type Foreign = Exclude<LanguageCode, "en">;
 type Fetch = () => Promise<{ default: Dictionary }>;
 
 /**
- * What of a dictionary is on show at first, and the rest, of rooms that are fetched on demand. A build divides each file into these
- * (`package/dictionaries.ts`); without a build, both are all of it.
+ * The messages on show at first, and the rest, of rooms that are fetched on demand. A build divides each file into these
+ * (`package/dictionaries.ts`); without a build, both are the whole file.
  */
 const DICTIONARIES: Readonly<Record<Foreign, Readonly<Record<"first" | "rest", Fetch>>>> = {
   de: { first: () => import("./de.json"), rest: () => import("./de.json") },

@@ -6,7 +6,7 @@
 import type { FileKind, Metric, Unit } from "../api/wire.js";
 import type { Format, Forms } from "./format.js";
 
-/** What a message is said with. */
+/** Values of a message's placeholders. */
 export interface Spoken {
   readonly format: Format;
   /** The text of a key, such as `plan.layers`, in this language or else in English. */

@@ -54,7 +54,7 @@ export const settings = {
     yourPrinter: "Your printer",
     noPrinter: "No printer",
     noPrinterHint: "Choose a printer to get a file for it.",
-    /** What is known of a printer, beside its name in the list. */
+    /** Badge beside a printer's name in the list. */
     layersOf: { yes: "adaptive layers confirmed", untried: "adaptive layers not confirmed yet", no: "one thickness" },
     /** Placeholder of the search. */
     findPrinter: "Maker or model",

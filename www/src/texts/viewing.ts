@@ -12,7 +12,7 @@ export const viewingTexts = room("view", {
   thin: "Thinner than {least}",
   probing: "Measuring the walls: {part}",
   tools: { turn: "Look", move: "Move", rotate: "Turn", size: "Scale", flat: "Lay flat", paint: "Paint", supports: "Supports", drains: "Drains" },
-  /** What each tool does, at the pointer. */
+  /** Purpose of each tool, at the pointer. */
   hints: {
     turn: "Look around, and select models",
     move: "Move models on the plate",

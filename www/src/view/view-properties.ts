@@ -75,7 +75,7 @@ export const PROPERTIES = {
   heat: given<Heat>("paint"),
   /** Minimum of the product of weight and saliency, if that is shown. */
   least: given(0),
-  /** What is thinner than this is marked in the look `walls`, mm. */
+  /** Thickness below which the look `walls` marks walls, mm. */
   wall_mm: given(0),
   brush: given(BRUSH),
   showsLegend: given(true),

@@ -1,4 +1,4 @@
-/** How far each step is: a few words, and a mark. */
+/** State of each step: a few words, and a mark. */
 import { isFilament } from "../api/facts.js";
 import type { Verdict, Warning } from "../api/wire.js";
 import type { Checks } from "../element/state/checks.js";

@@ -209,7 +209,7 @@ function findingsLine({ session: { checks }, language }: Facts, { go }: Bench): 
   </button>`;
 }
 
-/** What uniform layers cost in place of adaptive ones that the printer does not take. */
+/** Cost of uniform layers in place of adaptive ones that the printer does not take. */
 function givenWay({ session: { settings }, language }: Facts, { report: { layers } }: Result, replaced: Replaced | null): TemplateResult | typeof nothing {
   if (replaced === null || settings.planner !== "uniform" || !isOf(replaced, settings)) return nothing;
   const { count } = language.format;

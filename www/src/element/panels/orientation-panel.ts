@@ -22,7 +22,7 @@ import { typed } from "../parts/typed.js";
 import { shared } from "../styles/shared.js";
 import { elementWith, given, own } from "../../view/properties.js";
 
-/** What a search weighs, in the order of the panel. */
+/** Terms that a search weighs, in the order of the panel. */
 const RANKED = ["islands", "supports", "contacts", "cups", "overhang", "height", "time", "layers", "roughness", "error"] as const;
 /** Largest weight. */
 const MOST_WEIGHT = 3;

@@ -237,7 +237,7 @@ export class CuspSettings extends elementWith(PROPERTIES) {
     return this.#select("resin", words.resin, list);
   }
 
-  /** What the resin has of its own, to be used unless another value is typed. */
+  /** Values of the resin, used unless others are typed. */
   get #cure(): Required<Omit<Resin, "print_through">> & Pick<Resin, "print_through"> {
     return { ...FACTS.defaults.resin, ...this.offered.resins.find(({ name }) => name === this.settings.resin) };
   }

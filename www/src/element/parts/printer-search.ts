@@ -9,7 +9,7 @@ import { COLLATOR } from "../state/printer.js";
 export interface Entry {
   readonly value: string;
   readonly name: string;
-  /** What is known of layers of several thicknesses on this printer; null for an entry that is none. */
+  /** Words on layers of several thicknesses on this printer; null for an entry that is no printer. */
   readonly layers: KnownPrinter["variable_layers"] | null;
   /** Source of that knowledge. */
   readonly source?: string | undefined;

@@ -98,7 +98,7 @@ export class Plate {
   /** Index of the plate shown. */
   number = 0;
   arranging: Required<Arranging> = FACTS.arranging;
-  /** Where copies stand by hand; empty: as they are arranged. */
+  /** Places of copies set by hand; empty if all are arranged. */
   placed: readonly Placement[] = [];
   /** Current placements, from the plan or by hand. */
   placements: readonly Placement[] = [];

@@ -6,7 +6,7 @@ import { METRICS } from "./metric.js";
 import { DEFAULT_SETTINGS, rotationText, toAddress, withTolerance, type Settings } from "./settings.js";
 import { poseIn, type Snapshot } from "./snapshot.js";
 
-/** What a project keeps of a snapshot besides its job: the form as it was filled in. */
+/** Part of a snapshot that a project keeps beside its job: the form as filled in. */
 export function formOf({ query, models, selected, placed }: Snapshot): string {
   return JSON.stringify({ query, poses: models.map(({ pose }) => pose), selected, placed });
 }

@@ -7,7 +7,7 @@ export interface Arrangement {
   /** Index of the selected model. */
   readonly selected: number;
   readonly arranging: Required<Arranging>;
-  /** Where copies stand by hand; empty: as they are arranged. */
+  /** Places of copies set by hand; empty if all are arranged. */
   readonly placed: readonly Placement[];
 }
 

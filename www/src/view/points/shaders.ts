@@ -47,7 +47,7 @@ out vec4 colour;
 const vec3 PAPER = vec3(1.0);
 const vec3 INK = vec3(0.06, 0.07, 0.1);
 
-/** How much of a pixel is within a distance. */
+/** Part of a pixel within a distance. */
 float inside(float away) {
   return clamp(0.5 - away * view_px.y, 0.0, 1.0);
 }
