@@ -18,6 +18,9 @@ const FAR: f64 = 12.0;
 /// Maximum number of tops in the table of bottoms, for each first layer.
 const TABULATED_TOPS: usize = 256;
 
+/// Number of layers among which the nearest bottom is searched at once.
+const NEAREST: usize = 5;
+
 /// Doses that the layers of a plan leave below them. A dose is a multiple of the critical one, from which on resin is solid.
 #[derive(Debug, Clone, PartialEq)]
 pub struct Cure {
@@ -28,6 +31,8 @@ pub struct Cure {
     above: Vec<f64>,
     /// White ranges without light from above, by their first layer.
     columns: Vec<Columns>,
+    /// Cured bottoms of those with an end that is far.
+    far_mm: Vec<f64>,
     /// Cured bottoms of those that end near.
     near_mm: Vec<f64>,
     penetration_mm: f64,
@@ -39,8 +44,6 @@ pub struct Cure {
 struct Columns {
     /// The lowest end that is far.
     far_end: usize,
-    /// Cured bottom of ranges with such an end.
-    far_mm: f64,
     /// Index of the bottom of the lowest end; those of the others follow, up to the one that is far.
     near: usize,
 }
@@ -103,6 +106,7 @@ impl Cure {
             own: vec![0.0; layers],
             above: vec![0.0; layers + 1],
             columns: Vec::with_capacity(layers),
+            far_mm: Vec::with_capacity(layers),
             near_mm: Vec::new(),
             boundaries_mm,
             penetration_mm,
@@ -132,11 +136,9 @@ impl Cure {
             let near = self.near_mm.len();
             let near_ends = first + 1..far_end.min(first + 1 + TABULATED_TOPS);
             let near_mm: Vec<f64> = near_ends.map(bottom_mm).collect();
-            self.columns.push(Columns {
-                far_end,
-                far_mm: bottom_mm(layers),
-                near,
-            });
+            let far_mm = bottom_mm(layers);
+            self.columns.push(Columns { far_end, near });
+            self.far_mm.push(far_mm);
             self.near_mm.extend(near_mm);
         }
     }
@@ -168,22 +170,17 @@ impl Cure {
     /// Cured bottom of a range that is lit from above by `light`.
     #[inline]
     pub fn bottom_mm(&self, range: LitRange, light: Option<Light>) -> f64 {
-        let is_tabulated = range.brightness == 1.0 && light.is_none();
-        let tabulated_mm = is_tabulated.then(|| self.tabulated_mm(range.first, range.end));
-        tabulated_mm
-            .flatten()
-            .unwrap_or_else(|| self.computed_mm(range, light))
-    }
-
-    /// Cured bottom of a white range without light from above. `None` if the table has none.
-    #[inline]
-    fn tabulated_mm(&self, first: usize, end: usize) -> Option<f64> {
-        let columns = &self.columns[first];
-        if end >= columns.far_end {
-            return Some(columns.far_mm);
+        if range.brightness == 1.0 {
+            let columns = &self.columns[range.first];
+            if range.end >= columns.far_end {
+                return self.far_mm[range.first];
+            }
+            let above = range.end - range.first - 1;
+            if light.is_none() && above < TABULATED_TOPS {
+                return self.near_mm[columns.near + above];
+            }
         }
-        let above = end - first - 1;
-        (above < TABULATED_TOPS).then(|| self.near_mm[columns.near + above])
+        self.computed_mm(range, light)
     }
 
     #[inline(never)]
@@ -206,6 +203,11 @@ impl Cure {
         greys: u32,
     ) -> LitRange {
         let end = layers.end;
+        if greys == 1
+            && let Some(first) = self.nearest_far(&layers, z_mm)
+        {
+            return LitRange::white(first, end);
+        }
         let white = |first| LitRange::white(first, end);
         let error_mm = |range| self.bottom_mm(range, light) - z_mm;
         let mut below = layers.start;
@@ -232,6 +234,25 @@ impl Cure {
             }
         }
         nearest.0
+    }
+
+    /// The layer of [`Self::raised`] without greys, if the end is far and the layer is one of the lowest, whose bottoms rise: most are.
+    /// Compares them all, as processors cannot predict where a search would end.
+    #[inline]
+    fn nearest_far(&self, layers: &Range<usize>, z_mm: f64) -> Option<usize> {
+        let candidates = layers.start..layers.start + NEAREST;
+        let bottoms_mm = self.far_mm.get(candidates.clone())?;
+        let is_found = layers.end >= self.columns[candidates.end - 1].far_end
+            && bottoms_mm[NEAREST - 1] > z_mm
+            && bottoms_mm.is_sorted();
+        let mut nearest = (layers.start, f64::INFINITY);
+        for (layer, bottom_mm) in candidates.zip(bottoms_mm) {
+            let error_mm = (bottom_mm - z_mm).abs();
+            if error_mm < nearest.1 {
+                nearest = (layer, error_mm);
+            }
+        }
+        is_found.then_some(nearest.0)
     }
 
     /// The range with the two greys in its lowest layer between which the dose at `z_mm` is the critical one, except for black and white, and
