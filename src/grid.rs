@@ -94,7 +94,7 @@ pub enum GridError {
         fitting_scale: f64,
     },
     /// The model is too high for its bins.
-    #[error("{height_mm} mm in bins of {bin_mm} mm are too many; choose a larger bin")]
+    #[error("bins of {bin_mm} mm are too many for a height of {height_mm} mm; choose a larger bin")]
     #[serde(rename = "too-many-bins")]
     TooManyBins {
         /// Height of the model.

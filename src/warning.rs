@@ -279,12 +279,12 @@ impl Warning {
     fn of_reading(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         match self {
             Self::DegenerateFacets { facets } => {
-                write!(f, "{} without area left out", counted(*facets, "facet"))
+                write!(f, "left out {} without area", counted(*facets, "facet"))
             }
             Self::InsideOut => f.write_str("the mesh was inside out, and was turned over"),
             Self::TurnedFacets { facets } => write!(
                 f,
-                "{} facing the wrong way turned over",
+                "turned over {} that faced the wrong way",
                 counted(*facets, "facet")
             ),
             Self::Unorientable { edges } => write!(
@@ -329,7 +329,7 @@ impl Warning {
                 at_mm: [x, y, z],
             } => write!(
                 f,
-                "{} of the model missing in all masks, the largest at {x}, {y}, {z}: narrower than a pixel, and met by no \
+                "all masks miss {} of the model, the largest at {x}, {y}, {z}: narrower than a pixel, and hit by no \
                  ray; thicken it, or choose smaller pixels",
                 either(*bodies, "body", "bodies"),
             ),
@@ -346,8 +346,8 @@ impl Warning {
                 area_mm2,
             } => write!(
                 f,
-                "compensation erases parts of {}, from {from_mm:.3} mm up, at most {area_mm2:.2} mm² of one: they are no thicker \
-                 than what it takes away; thicken them, or set a least width that it leaves alone",
+                "compensation erases parts of {}, from {from_mm:.3} mm up, at most {area_mm2:.2} mm² in a layer: they are too \
+                 thin for it; thicken them, or set a minimum feature width",
                 counted(*layers, "layer"),
             ),
             Self::ThinRoofs {
@@ -356,7 +356,7 @@ impl Warning {
                 at_mm: [x, y, z],
             } => write!(
                 f,
-                "light cures through roofs over {area_mm2:.2} mm² and leaves them up to {deep_mm:.3} mm too low, the first at \
+                "light cures through thin roofs of {area_mm2:.2} mm², whose undersides are up to {deep_mm:.3} mm too low, the first at \
                  {x}, {y}, {z}; thicken them, or turn the model"
             ),
             Self::ClosedGaps {
@@ -379,7 +379,7 @@ impl Warning {
                 "the model stays solid: it is nowhere thick enough for walls of {wall_mm} mm around a cavity of {cavity_mm} mm"
             ),
             Self::NothingToDrain => f.write_str(
-                "the model has no closed cavity, so that no drain hole was made; hollow it",
+                "the model has no closed cavity, so no drain hole was made; hollow it first",
             ),
             Self::DrainAstray { drain_number } => write!(
                 f,
@@ -387,7 +387,7 @@ impl Warning {
             ),
             Self::Undrained { basins } => write!(
                 f,
-                "{} full, since no hole leads out on a level or downward; place holes there, or turn the model",
+                "{} full, since no hole there drains sideways or downward; place holes there, or turn the model",
                 either(*basins, "part of the void stays", "parts of the void stay")
             ),
             Self::ClosedCavities {
@@ -420,7 +420,7 @@ impl Warning {
                 if *replaced {
                     "those that you chose replace them"
                 } else {
-                    "they are printed as they are"
+                    "they are printed unchanged"
                 }
             ),
             _ => Ok(()),
@@ -557,13 +557,13 @@ fn odd_size(
 ) -> std::fmt::Result {
     write!(
         f,
-        "the file states no unit, and in millimeters the model is {size_mm} mm long; "
+        "the file states no unit; in millimeters the model is {size_mm} mm long; "
     )?;
     for reading in readings {
         let UnitReading { unit, size_mm } = reading;
         write!(f, "in {} it would be {size_mm} mm; ", unit.plural())?;
     }
-    f.write_str("give its unit if it is another")
+    f.write_str("set its unit if that is another")
 }
 
 /// A number with its noun: "1 hole", "2 holes".

@@ -81,7 +81,7 @@ pub enum ArchiveError {
     Cancelled(#[from] Cancelled),
     /// No pixel of any mask is lit.
     #[error(
-        "all masks are black: the model encloses nothing that the middle of a layer meets; check \
+        "all masks are black: the model encloses nothing at the middle of any layer; check \
          the model, or choose thinner layers"
     )]
     #[serde(rename = "all-black")]

@@ -37,9 +37,7 @@ pub enum ArrangeError {
         places: usize,
     },
     /// There is nothing on a plate, but on one after it.
-    #[error(
-        "nothing stands on plate {plate_number}, but on one after it; number plates without gaps"
-    )]
+    #[error("plate {plate_number} is empty, but a later plate is not; number plates without gaps")]
     #[serde(rename = "plate-gap")]
     EmptyPlate {
         /// The plate, counted from 1.

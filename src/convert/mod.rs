@@ -133,14 +133,14 @@ pub enum ConvertError {
 #[non_exhaustive]
 pub enum Loss {
     /// Lifts or speeds differ between layers.
-    #[error("lifts and speeds differ between layers; all layers have those of layer {layer} now")]
+    #[error("lifts and speeds differ between layers; all layers now have those of layer {layer}")]
     Moves {
         /// Number of the layer whose moves all layers have, from 1.
         layer: usize,
     },
     /// Rests are at several times of a layer, or differ between layers.
     #[error(
-        "rests differ between layers, or come after the exposure; all layers rest {wait_s} s before it now"
+        "rests differ between layers, or follow the exposure; all layers now rest {wait_s} s before it"
     )]
     Rests {
         /// Rest of each layer in seconds.

@@ -136,7 +136,7 @@ impl Display for Finding {
                 let joins = self.joins_layer.map_or(last + 1, |layer| layer + 1);
                 write!(
                     f,
-                    "nothing is below it in layer {first}, and it joins the rest in layer {joins}, with {volume:.3} mm³ by then; \
+                    "an island starts in layer {first} and joins the rest in layer {joins}, after growing to {volume:.3} mm³; \
                      support it, or turn the model"
                 )
             }
@@ -155,11 +155,11 @@ impl Display for Finding {
             ),
             Code::Overhang => write!(
                 f,
-                "{area:.2} mm² reach out by more than {limit} mm, too flat to support themselves; support them, or turn the model"
+                "surfaces of {area:.2} mm² overhang by more than {limit} mm, too flat to support themselves; support them, or turn the model"
             ),
             Code::Cup => write!(
                 f,
-                "a hollow of {:.3} ml is open only away from the plate, and sucks with up to {area:.1} mm²; make a hole near the \
+                "a hollow of {:.3} ml opens only away from the plate, and sucks at the film with up to {area:.1} mm²; make a hole near the \
                  plate, or turn the model",
                 volume / 1e3
             ),
@@ -170,7 +170,7 @@ impl Display for Finding {
             ),
             Code::NarrowDrain => write!(
                 f,
-                "{:.3} ml of resin or more leave a hollow only through openings narrower than {limit} mm; widen them, or add one",
+                "at least {:.3} ml of resin can drain only through openings narrower than {limit} mm; widen them, or add one",
                 volume / 1e3
             ),
             Code::ThinWall => write!(
@@ -195,11 +195,11 @@ impl Display for Finding {
             ),
             Code::PeelArea => write!(
                 f,
-                "the layer has {area:.1} mm² to peel off, more than {limit}; turn the model, or hollow it"
+                "the layer peels {area:.1} mm² off the film, more than the limit of {limit}; turn the model, or hollow it"
             ),
             Code::PeelJump => write!(
                 f,
-                "the layer has {area:.1} mm² more to peel off than the one below, more than {limit}; turn the model"
+                "the layer peels {area:.1} mm² more off the film than the one below; the limit is {limit}; turn the model"
             ),
             Code::SmallContact => write!(
                 f,

@@ -216,7 +216,7 @@ pub enum OptionsError {
         known: usize,
     },
     /// The description of a printer has a value out of bounds.
-    #[error("the printer {printer} cannot have this {field}; correct its description")]
+    #[error("the description of the printer {printer} has an invalid {field}; correct it")]
     #[serde(rename = "bad-printer")]
     BadPrinter {
         /// Its name.
@@ -260,7 +260,9 @@ pub enum OptionsError {
         weight_min: f64,
     },
     /// More than one of tolerance, number of layers and time is given.
-    #[error("give a tolerance, the most layers or the longest time, and only one of them")]
+    #[error(
+        "give only one of these: a tolerance, a maximum number of layers or a maximum print time"
+    )]
     #[serde(rename = "several-targets")]
     SeveralTargets,
     /// Two options that exclude each other.

@@ -18,7 +18,7 @@ use crate::warning::Warning;
 #[non_exhaustive]
 pub enum VerifyError {
     /// The file is not the report of a plan.
-    #[error("it is no plan as `cusp plan --json` prints it: {system}")]
+    #[error("it is not a plan in the format of `cusp plan --json`: {system}")]
     NotAPlan {
         /// The parser's message.
         system: String,
@@ -54,7 +54,7 @@ pub enum VerifyError {
     )]
     OtherWeights,
     /// The plan has lists of wrong lengths, or heights that do not ascend, so no model and options give it.
-    #[error("it contradicts itself: {key} does not go with the rest")]
+    #[error("it is inconsistent: {key} does not match the rest")]
     Contradicts {
         /// Path of the contradicting value, such as `z_mm[3]`.
         key: String,

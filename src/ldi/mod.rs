@@ -97,8 +97,8 @@ pub enum LdiError {
     },
     /// No ray meets the model.
     #[error(
-        "no pixel of {pitch_mm} mm meets the model, which is too small or too thin for them; \
-         choose smaller pixels"
+        "no pixel of {pitch_mm} mm hits the model, which is too small or too thin; choose smaller \
+         pixels"
     )]
     #[serde(rename = "no-hits")]
     NoHits {

@@ -29,7 +29,9 @@ pub enum MeshError {
         facets: usize,
     },
     /// The mesh lies in a horizontal plane.
-    #[error("the model has no height; is it flat, or lying in the plane z = constant?")]
+    #[error(
+        "the model has no height: all its facets lie in one horizontal plane; turn it, or export it again"
+    )]
     #[serde(rename = "mesh-zero-height")]
     ZeroHeight,
     /// The requested height is not a positive number.

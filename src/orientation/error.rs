@@ -34,7 +34,7 @@ pub enum SearchError {
         value: f64,
     },
     /// A result for a task that is not outstanding: never handed out, put back, or already accepted.
-    #[error("task {task} is not out: hand in each task's result once")]
+    #[error("task {task} is not pending: submit each task's result exactly once")]
     #[serde(rename = "search-task")]
     Task {
         /// Number of the task.

@@ -49,7 +49,7 @@ pub struct Part<O> {
 #[non_exhaustive]
 pub enum MergeError {
     /// No part is for this model with these weights.
-    #[error("no part is of this model with these weights")]
+    #[error("none of the parts belongs to this model with these weights")]
     #[serde(rename = "merge-none")]
     None,
     /// A part was measured by another version of the library.

@@ -88,7 +88,7 @@ pub enum PlanError {
     },
     /// A height range that is empty or upside down, or overlaps another.
     #[error(
-        "the height range from {from_mm} to {to_mm} mm is empty or overlaps another; give ranges upward and apart"
+        "the height range from {from_mm} to {to_mm} mm is empty or overlaps another; give ranges from bottom to top, without overlaps"
     )]
     #[serde(rename = "bad-range")]
     BadRange {

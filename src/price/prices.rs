@@ -86,8 +86,8 @@ pub enum PriceError {
     },
     /// Prices contradict themselves.
     #[error(
-        "prices cannot have this {field}; a currency is three capitals of ISO 4217, quantity breaks ascend, and every finish \
-         has a name of its own"
+        "the prices have an invalid {field}; a currency is an ISO 4217 code of three capitals, quantity breaks ascend, and each \
+         finish has a name of its own"
     )]
     #[serde(rename = "bad-prices")]
     BadPrices {

@@ -133,7 +133,7 @@ fn a_bad_model_does_not_stop_the_batch_and_is_told_again_at_the_end() {
         lines[2]["error"]["message"]
             .as_str()
             .unwrap()
-            .contains("no model")
+            .contains("not a model")
     );
     assert_eq!(files_in(&prints), ["ball.zip"]);
 }

@@ -126,7 +126,7 @@ fn a_printer_of_ones_own_comes_from_a_file() {
         (json!({ "pixels": [1200, 800] }), "pitch_um"),
         (
             json!({ "pixels": [0, 8], "pitch_um": [5, 5], "volume_mm": [1, 1, 1] }),
-            "cannot have this pixels",
+            "has an invalid pixels",
         ),
         (json!({ "pixles": [1, 8] }), "pixles"),
     ] {

@@ -114,7 +114,7 @@ fn prices_that_cannot_be_used_are_named() {
     refuses(
         r#"{ "currency": "euro" }"#,
         &[],
-        "three capitals of ISO 4217",
+        "ISO 4217 code of three capitals",
     );
     refuses(
         r#"{ "currency": "EUR", "setup": "2" }"#,

@@ -111,7 +111,7 @@ fn bad_input_is_one_clear_sentence_and_exit_code_1() {
     let flat = binary_stl(&solids::cube(1.0)[2..4]);
     for (bytes, words) in [
         (&b""[..], "empty"),
-        (b"a poem about a cube", "no model that Cusp reads"),
+        (b"a poem about a cube", "not a model that Cusp can read"),
         (&good[..200], "ends at byte 200"),
         (&nan, "byte 96"),
         (

@@ -306,6 +306,6 @@ fn a_model_alone_on_each_of_several_plates_keeps_options_of_its_own() {
     assert_fails(
         &cusp(&["verify", &plan, &job]),
         1,
-        "plate does not go with the rest",
+        "plate does not match the rest",
     );
 }

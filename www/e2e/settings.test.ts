@@ -149,7 +149,7 @@ test("a printer gives pixels and file, and what it cannot do a button beside it 
   // A refused printer replaces nothing.
   const mine = { model: "Big One", pixels: [2000, 1000], pitch_um: [60, 60], volume_mm: [120, 60, 200], format: "goo", reads: ["goo"] };
   await open(JSON.stringify({ ...mine, step_mm: -1 }));
-  await expect.poll(() => problem.innerText()).toContain("The printer big cannot have this step_mm; correct its description.");
+  await expect.poll(() => problem.innerText()).toContain("The description of the printer big has an invalid step_mm; correct it.");
   expect(await page.evaluate(() => document.querySelector("cusp-workbench")?.printer)).toBe("sl1s");
   await open(JSON.stringify(mine));
   await settled(page);

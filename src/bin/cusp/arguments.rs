@@ -54,7 +54,7 @@ pub struct Slicing {
 /// Rules by which models are arranged.
 #[derive(Default, Args)]
 pub struct Places {
-    /// Copies of each model that names no number of its own, as MODEL:3 does
+    /// Copies of each model that is given without a number, unlike MODEL:3
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..), help_heading = "Plate")]
     pub copies: Option<u32>,
     /// Least distance between copies [default: 2]
@@ -108,7 +108,7 @@ pub struct Target {
     /// Resin, as a JSON file: exposures, bottom layers, lift, compensation
     #[arg(long, value_name = "FILE", help_heading = "Printer")]
     resin: Option<PathBuf>,
-    /// Least width that compensation in x and y leaves; narrower features are not changed
+    /// Minimum width to which compensation in x and y may thin a feature; narrower features are not changed
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Printer")]
     min_feature: Option<f64>,
 }
@@ -165,7 +165,7 @@ pub struct ReadChoices {
     /// Read objects that a 3MF calls surfaces as models, too
     #[arg(long)]
     surfaces: bool,
-    /// Close every hole by a curved cap, where the generalised winding number is one half, and not only wide bent ones
+    /// Close every hole, not only wide bent ones, by a curved cap: the surface where the generalised winding number is one half
     #[arg(long)]
     curved_caps: bool,
     /// Read bodies that look like supports as parts of the model, and not as its supports
@@ -194,7 +194,7 @@ pub struct Choices {
     // First: the fields after it take their values away.
     #[command(flatten)]
     given: Given,
-    /// Settings by the names that reports have under `options`, as TOML; options on the command line go before them
+    /// Settings as TOML, by the names that reports have under `options`; options on the command line override them
     #[arg(long, value_name = "FILE.toml")]
     config: Option<PathBuf>,
     #[command(flatten)]
@@ -223,14 +223,14 @@ pub struct Choices {
     /// Structure left standing in the void
     #[arg(long, value_enum, help_heading = "Model")]
     infill: Option<InfillArg>,
-    /// From one node of the infill to the next [default: 8]
+    /// Distance between neighbouring nodes of the infill [default: 8]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     infill_spacing: Option<f64>,
     /// Diameter of the infill's struts [default: 1]
     #[arg(long, value_name = "MM", value_parser = length, help_heading = "Model")]
     strut: Option<f64>,
-    /// Make a drain hole in the void, or without --hollow in a closed cavity of the model: a point of the surface, a direction inward
-    /// and a diameter; or `auto`, one wherever resin would stay; repeatable
+    /// Make a drain hole in the void or, without --hollow, in a closed cavity of the model: a surface point, an inward direction and a
+    /// diameter; or `auto`, a hole wherever resin would be trapped; repeatable
     #[arg(long = "drain", value_name = "auto|X,Y,Z,DX,DY,DZ,DIAMETER", value_parser = drain, allow_hyphen_values = true, help_heading = "Model")]
     drains: Vec<DrainArg>,
     /// Support the model: light, medium or heavy, auto for medium, none, or a JSON file of strength, sizes and points
@@ -239,7 +239,7 @@ pub struct Choices {
     /// Lift the model this far above the plate, on its supports [default: 5]
     #[arg(long, value_name = "MM", value_parser = not_negative, help_heading = "Model")]
     lift: Option<f64>,
-    /// Write print files of supported or hollow models in which pieces float in the vat, too
+    /// Write print files of supported or hollow models even if pieces would float in the vat
     #[arg(long, help_heading = "Model")]
     allow_floating: bool,
     /// Put all supports on a raft
@@ -590,8 +590,8 @@ fn tolerance_help() -> String {
     });
     let defaults = defaults.collect::<Vec<_>>().join(", ");
     format!(
-        "Largest error of a layer, in the metric's unit. A model that needs more by volume has the smallest tolerance that it \
-         allows [default: {defaults}]"
+        "Largest error of a layer, in the metric's unit. A model that cannot keep the default of volume gets the smallest \
+         tolerance possible [default: {defaults}]"
     )
 }
 

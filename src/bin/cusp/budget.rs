@@ -15,7 +15,7 @@ use crate::watch::memory_taken_bytes;
 /// Bounds of a command.
 #[derive(Debug, Clone, Copy, Default, Args)]
 pub struct Budget {
-    /// Take about this much memory at most, as 1GB or 512MiB; hits that do not fit are found again in each pass, and
+    /// Take at most about this much memory, such as 1GB or 512MiB; hits that do not fit are found again in each pass, and
     /// files stay the same
     #[arg(long, value_name = "SIZE")]
     max_memory: Option<ByteSize>,

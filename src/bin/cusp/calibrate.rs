@@ -67,9 +67,9 @@ pub enum Calibrating {
         /// A thickness and its exposure, such as 0.05=2.4
         #[arg(required_unless_present = "bridges", value_name = "MM=S", value_parser = measured)]
         measured: Vec<[f64; 2]>,
-        /// Thicknesses of measured bridges of 1, 2, 3, 4, 6 and 8 layers, after that of their layers, such as
-        /// 0.05=0.16,0.24,0.31,0.37,0.49,0.60; a dash for one that is missing; repeatable. The resin is the one that they
-        /// were printed with
+        /// Layer thickness, then measured thicknesses of the bridges of 1, 2, 3, 4, 6 and 8 layers, such as
+        /// 0.05=0.16,0.24,0.31,0.37,0.49,0.60; a dash for a missing bridge; repeatable. The resin is the one that they were
+        /// printed with
         #[arg(long = "bridges", value_name = "MM=MM,MM,...", value_parser = bridges)]
         bridges: Vec<Bridges>,
         /// Resin file to start from

@@ -25,7 +25,7 @@ pub struct Checking {
     /// Thresholds and severities of a shop, as a JSON file
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,
-    /// Findings of a kind to show, of which the largest come first
+    /// Number of findings to show of each kind, largest first
     #[arg(long, value_name = "N", default_value_t = 5)]
     show: usize,
 }

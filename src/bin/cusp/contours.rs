@@ -24,7 +24,7 @@ use crate::watch::stop_on_interrupt;
 pub struct Contouring {
     #[command(flatten)]
     pub printing: Printing,
-    /// File of the contours: FILE.svg, or FILE.cli in the Common Layer Interface; of several plates each has its number in the name
+    /// Contour file: FILE.svg, or FILE.cli (Common Layer Interface); with several plates, each name has the plate's number
     #[arg(short, long, value_name = "FILE", value_parser = contour_file)]
     output: PathBuf,
     /// Leave out points of contours where the outline moves by at most this; 0 keeps all

@@ -33,7 +33,7 @@ pub struct Converting {
     /// printer that IN names]
     #[arg(long, value_name = "NAME|FILE.json", value_parser = PrinterName, hide_possible_values = true)]
     printer: Option<String>,
-    /// Format [default: the printer's, or that of OUT's extension, where a zip is png]
+    /// Format [default: the printer's, or that of OUT's extension; .zip means png]
     #[arg(long, value_enum)]
     format: Option<Format>,
     /// Mirror the masks left to right [default: as the printer has them]

@@ -116,12 +116,12 @@ enum Command {
     /// Copies are arranged on plates, and share the time that a plate takes.
     #[command(allow_negative_numbers = true)]
     Price(Pricing),
-    /// Recompute a plan, and check that it matches and keeps its tolerance; with --limits and --prices, that it can be
-    /// printed, and its price
+    /// Recompute a plan, and check that it matches and keeps its tolerance; --limits also checks that it can be printed,
+    /// --prices adds its price
     Verify(Verifying),
     /// Measure the distances between the solid that a print file prints and the model, both ways
     Simulate(Simulating),
-    /// Write a print that measures a printer
+    /// Write a calibration print, or put its measurements into a resin file
     #[command(subcommand)]
     Calibrate(Calibrating),
     /// Show the contents of a print file from any program, and check that it is whole

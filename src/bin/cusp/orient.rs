@@ -44,7 +44,7 @@ pub struct Orienting {
     /// Measure of quality; less is better
     #[arg(long, value_enum, default_value_t = SearchOptions::default().quality, help_heading = "Search")]
     quality: Quality,
-    #[arg(long, value_name = "NAME=WEIGHT", help = format!("Weigh all that a print needs, in place of two terms: {}, each from 0; repeatable", Terms::NAMES.join(", ")), value_parser = rank, conflicts_with_all = ["alpha", "cost", "quality"], help_heading = "Search")]
+    #[arg(long, value_name = "NAME=WEIGHT", help = format!("Weigh all criteria, in place of two: {}, each from 0; repeatable", Terms::NAMES.join(", ")), value_parser = rank, conflicts_with_all = ["alpha", "cost", "quality"], help_heading = "Search")]
     rank: Vec<(usize, f64)>,
     /// Exclude orientations with a larger area that needs support, in mm²
     #[arg(long, value_name = "MM2", help_heading = "Search")]

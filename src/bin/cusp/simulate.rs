@@ -22,7 +22,7 @@ use crate::watch::stop_on_interrupt;
 /// Models and a print file of them.
 #[derive(Args)]
 pub struct Simulating {
-    /// All models that it prints, in their order: 3MF, OBJ or STL. Or one job file or project of `cusp plate`
+    /// All models in the print file, in order: 3MF, OBJ or STL. Or one job file or project of `cusp plate`
     #[arg(required = true, value_name = "MODEL")]
     models: Vec<PathBuf>,
     /// Print file in any format that `cusp inspect` reads, from any program
@@ -46,7 +46,7 @@ pub struct Simulating {
     /// True if the masks are mirrored left to right [default: as the print file says]
     #[arg(long, value_name = "BOOL")]
     mirror: Option<bool>,
-    /// Cure below layers by the `print_through` of this resin, a JSON file, and the exposures of the print file
+    /// Simulate print-through, by the `print_through` of this resin, a JSON file, and the exposures in the print file
     #[arg(long, value_name = "RESIN.json")]
     cure: Option<PathBuf>,
 }

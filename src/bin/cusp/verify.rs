@@ -39,14 +39,13 @@ pub struct Verifying {
     /// File of weights that the plan was made with
     #[arg(long, value_name = "FILE")]
     weights: Option<PathBuf>,
-    /// Check that it can be printed, by the thresholds and severities of this file: a plan that is rejected is not
-    /// correct
+    /// Check that the plan can be printed, by the thresholds and severities in this file; a rejected plan fails
     #[arg(long, value_name = "FILE.json")]
     limits: Option<PathBuf>,
     /// Show its price, by the prices of this file
     #[arg(long, value_name = "FILE.json")]
     prices: Option<PathBuf>,
-    /// Take about this much memory at most, as 1GB or 512MiB: a plan may ask for more than it is worth
+    /// Take at most about this much memory, such as 1GB or 512MiB, even if the plan needs more
     #[arg(long, value_name = "SIZE", default_value = "4GB")]
     max_memory: ByteSize,
     /// Take this much processor time at most, in seconds of all cores together

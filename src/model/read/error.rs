@@ -25,7 +25,7 @@ pub enum ReadError {
         kind: FileKind,
     },
     /// A file of an unknown kind.
-    #[error("this is no model that Cusp reads; export it as STL, 3MF or OBJ")]
+    #[error("this is not a model that Cusp can read; export it as STL, 3MF or OBJ")]
     #[serde(rename = "unknown-file-kind")]
     UnknownKind,
     /// The file has no such plate.

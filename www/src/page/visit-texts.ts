@@ -47,7 +47,7 @@ export const visitWords = room("visit", {
     steps: [
       ["Look at the model", "Drag to turn it. Slide through its layers: the colours show how thick they are."],
       ["Step by step", "Orient, hollow, support and check: take the steps that you need, in any order. In the last one you choose printer, resin and layers."],
-      ["Take the file", "Here is what the print takes, and the file for your printer. Your work is kept in this browser: see Recent work."],
+      ["Take the file", "Here are the print time, the resin and the file for your printer. Your work is kept in this browser: see Recent work."],
     ],
     place: "{step} of {steps}",
     next: "Next",

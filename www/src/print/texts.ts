@@ -64,19 +64,19 @@ const faults = {
 
 const findings = {
   "no-layers": "The file has no layers; slice the model again.",
-  "bad-heights": "{layers|one:# layer ends|other:# layers end} at a height that is no number, first layer {first_layer|count}; export the file again.",
-  "bad-exposures": "{layers|one:# layer has|other:# layers have} an exposure that is no number, first layer {first_layer|count}; check the exposures and export the file again.",
+  "bad-heights": "{layers|one:# layer ends|other:# layers end} at a height that is not a number, starting with layer {first_layer|count}; export the file again.",
+  "bad-exposures": "{layers|one:# layer has|other:# layers have} an exposure that is not a number, starting with layer {first_layer|count}; check the exposures and export the file again.",
   "bad-nominal-values": "The layer thickness or an exposure for all layers is no number; check the settings and export the file again.",
   "first-layer-below-plate": "The first layer ends at {z_mm|mm}, not above the plate; slice the model again.",
-  "heights-not-ascending": "{layers|one:# layer ends|other:# layers end} not above the layer below, first layer {first_layer|count}, at {z_mm|mm} after {below_mm|mm}; slice the model again.",
+  "heights-not-ascending": "{layers|one:# layer ends|other:# layers end} no higher than the layer below, starting with layer {first_layer|count}, at {z_mm|mm} after {below_mm|mm}; slice the model again.",
   "ignored-heights": {
     bare: "Layers are {thinnest_mm|mm} to {thickest_mm|mm} thick, but the file tells the printer to ignore that; export it with values for each layer, or slice with layers of one thickness.",
     rise: "Layers are {thinnest_mm|mm} to {thickest_mm|mm} thick, but the file tells the printer to ignore that and to rise by {layer_mm|mm}; export it with values for each layer, or slice with layers of one thickness.",
   },
-  "no-exposure": "{layers|one:# layer has|other:# layers have} no exposure, first layer {first_layer|count}; check the exposures and export the file again.",
-  "black-layers": "{layers|one:# layer is|other:# layers are} black, first layer {first_layer|count}, from {from_mm|height} up: nothing is printed there; look at the masks.",
-  "bad-layers": "{layers|one:# layer is|other:# layers are} damaged, first layer {first_layer|count}: {fault}; copy or export the file again.",
-  "missing-marks": "{layers|one:# layer is|other:# layers are} not closed by the bytes 0D 0A, first layer {first_layer|count}; copy or export the file again.",
+  "no-exposure": "{layers|one:# layer has|other:# layers have} no exposure, starting with layer {first_layer|count}; check the exposures and export the file again.",
+  "black-layers": "{layers|one:# layer is|other:# layers are} black, starting with layer {first_layer|count} at {from_mm|height}: nothing is printed there; look at the masks.",
+  "bad-layers": "{layers|one:# layer is|other:# layers are} damaged, starting with layer {first_layer|count}: {fault}; copy or export the file again.",
+  "missing-marks": "{layers|one:# layer is|other:# layers are} not closed by the bytes 0D 0A, starting with layer {first_layer|count}; copy or export the file again.",
   "missing-end": "The file does not end as it should; copy it again, it may be cut short.",
   "bad-preview": "Preview {preview|count} is damaged; the printer's screen may show noise, the print is not affected.",
 } as const satisfies Sentences<FileFinding["code"]>;

@@ -29,21 +29,21 @@ const FINDINGS = {
   },
   /** Explanation of each kind. */
   sentences: {
-    island: "Nothing is below it in layer {first}, and it joins the rest in layer {joins}, with {volume} by then.",
+    island: "An island starts in layer {first} and joins the rest in layer {joins}, after growing to {volume}.",
     "loose-body": "A body of {volume} touches neither the plate nor another body.",
     "separate-body": "A body of {volume} on the plate touches no other.",
     speck: "A few pixels touch nothing, {area} in {layers|one:# layer|other:# layers}.",
-    overhang: "{area} reach out by more than {limit}, too flat to support themselves.",
-    cup: "A hollow of {resin} is open only away from the plate, and sucks with up to {area}.",
+    overhang: "Surfaces of {area} overhang by more than {limit}, too flat to support themselves.",
+    cup: "A hollow of {resin} opens only away from the plate, and sucks at the film with up to {area}.",
     trap: "{resin} of resin are enclosed.",
-    "narrow-drain": "{resin} of resin or more leave a hollow only through openings narrower than {limit}.",
+    "narrow-drain": "At least {resin} of resin can drain only through openings narrower than {limit}.",
     "thin-wall": "A wall is thinner than {limit} over {volume}.",
     "thin-floor": "A floor is thinner than {limit} along z over {area}.",
     "narrow-gap": "A gap is narrower than {limit} over {volume} and may close.",
     "small-hole": "A hole is smaller than {limit} over {volume} and may close.",
     "low-gap": "A gap is lower than {limit} along z over {area} and may close.",
-    "peel-area": "The layer has {area} to peel off, more than {limit}.",
-    "peel-jump": "The layer has {area} more to peel off than the one below, more than {limit}.",
+    "peel-area": "The layer peels {area} off the film, more than the limit of {limit}.",
+    "peel-jump": "The layer peels {area} more off the film than the one below; the limit is {limit}.",
     "small-contact": "Only {area} hold the print on the plate, less than {limit} of its largest layer.",
   },
   /** Advice on each kind. */
@@ -54,7 +54,7 @@ const FINDINGS = {
     raft: "Add a raft",
     drain: "Drill drain holes",
     hollow: "Hollow the model",
-    orient: "Find a better direction",
+    orient: "Find a better orientation",
   },
   advice: {
     island: "Support it, or turn the model.",
@@ -81,11 +81,11 @@ const FINDINGS = {
   /** Number of smaller findings of a kind that are not listed. */
   smaller: "And {count} smaller ones.",
   /** Explains the effect of choosing a finding. */
-  hint: "Choose one to see where it is. Escape ends that.",
+  hint: "Choose a finding to see where it is. Escape deselects it.",
   /** Label of the switch that colours the model by wall thickness. */
   walls: "Show wall thickness",
   /** Explains the colours and the marked areas. */
-  wallsHint: "Colours the model by how thick it is straight under each place. Stripes mark what is thinner than {limit}.",
+  wallsHint: "Colours each point by the thickness directly beneath it. Stripes mark walls thinner than {limit}.",
 } as const satisfies {
   verdicts: Record<Printability["verdict"], string>;
   severities: Record<Exclude<Severity, "ignore">, string>;

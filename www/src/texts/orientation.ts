@@ -5,7 +5,7 @@ export const orientationTexts = room("orientation", {
   hint: "In another orientation, the model may need fewer supports, less time, or come out smoother.",
   find: "Find the best orientation",
   again: "Search again",
-  stale: "Found with other settings than those on show.",
+  stale: "Found with settings that have changed since.",
   /** Heading of the weights. */
   counts: "What counts",
   /** Weights from 0 to 3. */
@@ -24,7 +24,7 @@ export const orientationTexts = room("orientation", {
   front: "Front",
   back: "Back",
   score: "Score",
-  legend: "Score: all that counts, as weighed below; lower is better",
+  legend: "Score: all criteria, weighted as below; lower is better",
   excluded: "Does not fit, or left out",
   upright: "Up, current orientation",
   why: {

@@ -37,7 +37,7 @@ export const plan = {
     onePerPrint: "The {printer} takes one thickness for all layers: choose uniform ones for it.",
     /** First layer to set in the slicer of a filament printer; any other shifts all layers. */
     match: "Set the first layer to {thickness} there ({setting}), or every layer is printed at another height than planned.",
-    asIs: "The model prints as it is: no supports, not hollowed.",
+    asIs: "The model prints unchanged: no supports, not hollowed.",
     hollow: "The model prints hollow: no supports.",
     supported: "The model prints with supports, not hollowed.",
     hollowSupported: "The model prints hollow, with supports.",

@@ -32,7 +32,7 @@ export const problemTexts = room("", {
     badOptions: "These settings do not go together",
     noSuchPrinter: "There is no such printer",
     badPrinter: "This printer’s description has an error",
-    outOfReach: "No plan is as short as that",
+    outOfReach: "No plan meets this limit",
     gpu: "The GPU could not be used",
     gpuTooSmall: "The GPU is too small for this model",
     uniformOnly: "This print file takes uniform layers only",

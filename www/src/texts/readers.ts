@@ -5,7 +5,7 @@ export const readers = {
   "threemf-no-directory": "The 3MF file is damaged or cut short: its directory is missing; copy or export it again.",
   "threemf-no-part": "The 3MF file has no part {part}; export the model again.",
   "threemf-damaged-part": "The part {part} of the 3MF file is damaged; copy or export it again.",
-  "threemf-packed": "The part {part} of the 3MF file is packed by method {method|count}, encrypted or not; 3MF knows 0 and 8; export the model again.",
+  "threemf-packed": "The part {part} of the 3MF file is encrypted or packed by method {method|count}; 3MF allows methods 0 and 8, unencrypted; export the model again.",
   "threemf-too-large": "The part {part} of the 3MF file inflates to more than {most_bytes|count} bytes, too much for its size; export the model again.",
   "threemf-xml": "{part}, line {line|count}: {fault|names.xml}; export the model again.",
   "threemf-bad-attribute": "{part}, line {line|count}: `{found}` is no value of {attribute}; export the model again.",

@@ -21,10 +21,10 @@ export const workbenchWords = room("workbench", {
   steps: { turn: "Orient", check: "Check", hollow: "Hollow", support: "Support", slice: "Slice" },
   /** Purpose of each step. */
   hints: {
-    turn: "How the model lies decides what needs support, and how long it prints.",
+    turn: "The orientation decides what needs support, and how long the print takes.",
     check: "What would fail in print, and where it is.",
     hollow: "A hollow model takes less resin and pulls less at the film.",
-    support: "Whatever begins in the air or leans far out needs a support.",
+    support: "Islands and overhangs need supports.",
   },
   prepare: "Prepare automatically",
   prepareHint: "Turns the model, supports it, hollows a large one, and checks the result.",

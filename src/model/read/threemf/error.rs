@@ -96,7 +96,7 @@ pub enum ThreeMfError {
     },
     /// A part is compressed or encrypted in a way that 3MF does not allow.
     #[error(
-        "the part {part} of the 3MF file is packed by method {method}, encrypted or not; 3MF knows 0 and 8; export the model again"
+        "the part {part} of the 3MF file is encrypted or packed by method {method}; 3MF allows methods 0 and 8, unencrypted; export the model again"
     )]
     #[serde(rename = "threemf-packed")]
     Packed {

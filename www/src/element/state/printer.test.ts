@@ -63,7 +63,7 @@ test.each<[string, { printer?: string; format?: PrintFormat; taker?: string }, s
   const warnings: Warning[] = taker === undefined ? [] : [{ code: "one-thickness", detail: { taker, best: null } }];
   const patch = { print_file, warnings, ...(printer !== undefined && { options: { printer: printer.name } }) };
   const words = (language: Language): string => fileWords({ report: report(patch) }, PRINTERS, language);
-  expect(words(languageOf("en"))).toBe(`${said} The model prints as it is: no supports, not hollowed.`);
+  expect(words(languageOf("en"))).toBe(`${said} The model prints unchanged: no supports, not hollowed.`);
   const others = LANGUAGES.map((code) => words(languageOf(code)));
   expect(new Set(others).size).toBe(LANGUAGES.length);
   for (const other of others) expect(other).not.toContain("undefined");

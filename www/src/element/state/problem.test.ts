@@ -87,7 +87,7 @@ test.each([
   [failed("layer-too-thick", { layer_mm: 2, height_mm: 1 }), "The layers are too thick for this model"],
   [failed("layer-range-empty", { layer_min_mm: 1, layer_max_mm: 2, step_mm: 3 }), "No layer of whole motor steps lies in this range"],
   [failed("gpu-too-small", { facets: 3, needed_bytes: 2, limit_bytes: 1 }), "The GPU is too small for this model"],
-  [failed("out-of-reach", { layers: 1, least_layers: 2 }), "No plan is as short as that"],
+  [failed("out-of-reach", { layers: 1, least_layers: 2 }), "No plan meets this limit"],
 ])("%s has a heading of its own", (error, title) => {
   expect(explain(error, "a.stl", DEFAULT_SETTINGS).title).toBe(title);
 });
@@ -161,7 +161,7 @@ test("an unknown printer offers the three most similar names, or none", () => {
 test("a printer whose description is wrong is blamed, and may be left out; a file that is refused changed nothing", () => {
   const bad = explain(failed("bad-printer", { printer: "mine", field: "pitch_um" }), "a.stl", { ...DEFAULT_SETTINGS, printer: "mine" });
   expect(bad).toMatchObject({ field: "printer", offers: [{ change: { printer: "" } }] });
-  expect(bad.text).toBe("The printer mine cannot have this pitch_um; correct its description.");
+  expect(bad.text).toBe("The description of the printer mine has an invalid pitch_um; correct it.");
   // Nothing else that the form gives can be unreadable.
   const own = { pixels: [1, 1] } as unknown as Printer;
   const system = "Failed to deserialize JsValue into type `cusp_slicer::job::options::Options`: Error: missing field `pitch_um`";
@@ -190,7 +190,7 @@ test("warnings are sentences with their figures", () => {
   const metric = "cusp";
   const words = (warning: Warning): string | undefined => advise([warning], languageOf("en"), new Set())[0]?.text;
   expect(words({ code: "inside-out" })).toBe("The mesh was inside out, and was turned over.");
-  expect(words({ code: "degenerate-facets", detail: { facets: 1 } })).toBe("1 facet without area left out.");
+  expect(words({ code: "degenerate-facets", detail: { facets: 1 } })).toBe("Left out 1 facet without area.");
   expect(words({ code: "tolerance-exceeded", detail: { planner: "uniform", metric, tolerance: 0.05, max_error: 0.0712 } })).toBe(
     "The error reaches 0.071\u00a0mm, more than the tolerance of 0.05\u00a0mm.",
   );
