@@ -162,6 +162,28 @@ impl<'a> Scan<'a> {
         self.part(band, self.rows(band), None)
     }
 
+    /// The rays of some rows.
+    pub(super) fn of_rows(&self, rows: Range<u32>) -> ScannedRays {
+        let mut all = ScannedRays {
+            first_row: rows.start,
+            offsets: vec![0],
+            hits: Vec::new(),
+            classes: self.classes,
+        };
+        let mut start = rows.start;
+        while start < rows.end {
+            let band = (start / BAND_ROWS) as usize;
+            let end = self.rows(band).end.min(rows.end);
+            let part = self.part(band, start..end, None);
+            let base = all.hits.len() as u32;
+            all.offsets
+                .extend(part.offsets[1..].iter().map(|offset| base + offset));
+            all.hits.extend(part.hits);
+            start = end;
+        }
+        all
+    }
+
     /// The rays of some rows with their hits in a slab, up to the end of a band: as many of the rows as are returned.
     pub fn first_of(&self, rows: Range<u32>, slab: Slab) -> ScannedRays {
         let band = (rows.start / BAND_ROWS) as usize;

@@ -20,7 +20,7 @@ use serde::Serialize;
 
 pub use missed::{Missed, missed};
 pub use ranges::{model_ranges, printed_crossings, printed_entries, printed_ranges};
-pub use rays::{Anew, RayImage, Rays};
+pub use rays::{Anew, RayImage, RayRows, Rays};
 pub use solid::Solid;
 pub use survey::Survey;
 

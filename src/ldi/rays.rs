@@ -1,6 +1,8 @@
 //! The rays of a mesh band by band, either held by an LDI or found again in each pass.
 
-use super::cpu::Scan;
+use std::ops::Range;
+
+use super::cpu::{Scan, ScannedRays};
 use super::projection::Projection;
 use super::{Hit, Ldi};
 use crate::grid::Grid;
@@ -81,9 +83,51 @@ pub enum RayImage<'a> {
 }
 
 /// Source of a pass's bands.
+#[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
     Scanned(Scan<'a>),
+}
+
+/// The rays of an image, which are read in any order: see [`RayImage::read`].
+#[derive(Debug)]
+pub struct RayRows<'a> {
+    /// The grid whose pixel centres the rays pass.
+    pub grid: Grid,
+    /// Classes of the facets of the sampled mesh.
+    pub classes: FacetClasses,
+    source: Bands<'a>,
+}
+
+/// Rays that an LDI holds, or that were found.
+#[derive(Debug)]
+pub enum HeldRays<'a> {
+    /// Rays of an LDI.
+    Kept(Rays<'a>),
+    /// Rays that were found.
+    Scanned(ScannedRays),
+}
+
+impl HeldRays<'_> {
+    /// The rays.
+    pub fn rays(&self) -> Rays<'_> {
+        match self {
+            Self::Kept(rays) => *rays,
+            Self::Scanned(scanned) => scanned.rays(),
+        }
+    }
+}
+
+impl RayRows<'_> {
+    /// Some rows of rays.
+    ///
+    /// Cost: nothing for rays of an LDI; otherwise linear in the facets, rows and hits of the bands of [`BAND_ROWS`] that the rows meet.
+    pub fn of(&self, rows: Range<u32>) -> HeldRays<'_> {
+        match &self.source {
+            Bands::Kept(ldi) => HeldRays::Kept(ldi.rows(rows)),
+            Bands::Scanned(scan) => HeldRays::Scanned(scan.of_rows(rows)),
+        }
+    }
 }
 
 impl RayImage<'_> {
@@ -149,6 +193,24 @@ impl RayImage<'_> {
         Ok(parts.into_iter().map(|(_, value)| value).collect())
     }
 
+    /// Reads the rays in any order: `read` is called once.
+    pub(crate) fn read<T>(self, read: impl FnOnce(&RayRows<'_>) -> T) -> T {
+        let (grid, classes) = (*self.grid(), self.classes());
+        let projection;
+        let source = match self {
+            Self::Kept(ldi) => Bands::Kept(ldi),
+            Self::Scanned { mesh, ref grid, .. } => {
+                projection = Projection::new(mesh, grid);
+                Bands::Scanned(Scan::new(&projection, grid, mesh.classes))
+            }
+        };
+        read(&RayRows {
+            grid,
+            classes,
+            source,
+        })
+    }
+
     /// Returns true if `holds` is true for all rays.
     pub(super) fn all(
         self,
@@ -167,11 +229,14 @@ impl Ldi {
     /// The rays of a band of [`BAND_ROWS`] rows.
     fn band(&self, band: usize) -> Rays<'_> {
         let first_row = band as u32 * BAND_ROWS;
-        let rows = first_row..(first_row + BAND_ROWS).min(self.grid.height);
+        self.rows(first_row..(first_row + BAND_ROWS).min(self.grid.height))
+    }
+
+    fn rows(&self, rows: Range<u32>) -> Rays<'_> {
         let width = self.grid.width as usize;
         let offsets = &self.offsets[rows.start as usize * width..=rows.end as usize * width];
         Rays {
-            first_row,
+            first_row: rows.start,
             offsets,
             hits: &self.hits[offsets[0] as usize..offsets[offsets.len() - 1] as usize],
             classes: self.classes,

@@ -11,7 +11,10 @@ use super::samples::SublayerOf;
 use super::step::{Step, Stretch};
 use super::{Change, each_change};
 use crate::grid::Grid;
-use crate::ldi::Ldi;
+use crate::ldi::RayRows;
+
+/// Rows of rays that are held at once.
+pub(super) const ROWS_AT_ONCE: u32 = 32;
 
 /// Compensations in masks.
 #[derive(Debug, Clone, PartialEq)]
@@ -24,23 +27,27 @@ pub struct Compensations {
     pub least_mm: f64,
 }
 
-/// Columns and rows by which rays around the model must be extended so that no grown area is cut off.
-pub(super) fn margin(compensations: &Compensations, grid: &Grid) -> [u32; 2] {
+/// The rays around a model, a part of all, extended so that no grown area is cut off.
+pub(super) fn extended(compensations: &Compensations, all: &Grid, part: &Grid) -> Grid {
     let most_mm = compensations
         .xy_mm
         .iter()
         .fold(0.0, |most: f64, mm| most.max(-mm));
-    [grid.pitch_mm, grid.pitch_y_mm].map(|pitch_mm| (most_mm / pitch_mm).ceil() as u32)
+    let sides = [part.pitch_mm, part.pitch_y_mm];
+    all.extended(
+        part,
+        sides.map(|pitch_mm| (most_mm / pitch_mm).ceil() as u32),
+    )
 }
 
 /// Finds the changes in a band of rows.
 pub(super) struct Compensated<'a> {
-    pub ldi: &'a Ldi,
+    pub image: &'a RayRows<'a>,
     pub sublayer_of: &'a SublayerOf,
     pub compensations: &'a Compensations,
     /// Sublayers of a layer.
     pub parts: u32,
-    /// The rays of the LDI, extended by the margin.
+    /// The rays of the image, extended by the margin.
     pub rays: Grid,
     /// Columns and rows of that margin to the left and above.
     pub offset: [u32; 2],
@@ -133,29 +140,26 @@ pub(super) struct Rows {
 
 impl Rows {
     pub fn new(compensated: &Compensated<'_>, rows: Range<i32>, part: Part) -> Self {
-        let (ldi, entries) = (compensated.ldi, compensated.entries());
+        let (image, entries) = (compensated.image, compensated.entries());
         let sublayers = compensated.compensations.xy_mm.len() as u32 * compensated.parts;
         let [left, above] = compensated.offset.map(|side| side as i32);
-        let width = ldi.grid.width as usize;
+        let width = image.grid.width as usize;
         let mut flips = Vec::new();
         let mut ranges = Column::new();
-        for row in rows.clone() {
-            let Some(ray_row) = (row - above)
-                .try_into()
-                .ok()
-                .filter(|row: &usize| *row < ldi.grid.height as usize)
-            else {
-                continue;
-            };
-            for column in 0..width {
-                let hits = ldi.ray(ray_row * width + column);
-                entries.each(hits, ldi.classes, &mut ranges, |mut on, off, unraised| {
+        let within = |row: i32| (row - above).clamp(0, image.grid.height as i32) as u32;
+        let ray_rows = within(rows.start)..within(rows.end);
+        for first in ray_rows.clone().step_by(ROWS_AT_ONCE as usize) {
+            let held = image.of(first..(first + ROWS_AT_ONCE).min(ray_rows.end));
+            for (ray, hits) in held.rays().each().enumerate() {
+                let row = first as i32 + (ray / width) as i32 + above;
+                let column = (ray % width) as i32 + left;
+                entries.each(hits, image.classes, &mut ranges, |mut on, off, unraised| {
                     if part == Part::Whole && off <= on {
                         on = unraised;
                     }
                     if on < off {
-                        flips.push((on, row, column as i32 + left));
-                        flips.push((off, row, column as i32 + left));
+                        flips.push((on, row, column));
+                        flips.push((off, row, column));
                     }
                 });
             }

@@ -6,12 +6,12 @@
 
 use std::ops::Range;
 
-use super::compensated::{Compensated, Part, Rows};
+use super::compensated::{Compensated, Part, ROWS_AT_ONCE, Rows};
 use super::entries::{Column, Raise};
 use super::samples::SublayerOf;
 use super::step::{Disc, Step, Stretch, without};
 use super::{Compensations, Samples};
-use crate::ldi::Ldi;
+use crate::ldi::{RayImage, RayRows};
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -27,7 +27,7 @@ const REACH_Z: f64 = 3.0;
 const LEAST_MM2: f64 = 0.01;
 
 /// Rows of a band.
-const BAND_ROWS: usize = 256;
+const BAND_ROWS: usize = 128;
 
 /// The area of each layer that compensation erases, in square millimetres, up to the last layer of which it erases any; with several
 /// heights in a layer, the largest of theirs.
@@ -37,7 +37,17 @@ const BAND_ROWS: usize = 256;
 /// # Errors
 /// [`Cancelled`].
 pub(crate) fn erased_mm2(
-    ldi: &Ldi,
+    image: RayImage<'_>,
+    plan: &Plan,
+    samples: Samples,
+    compensations: &Compensations,
+    progress: &mut Progress<'_>,
+) -> Result<Vec<f64>, Cancelled> {
+    image.read(|image| erased_of_mm2(image, plan, samples, compensations, progress))
+}
+
+fn erased_of_mm2(
+    image: &RayRows<'_>,
     plan: &Plan,
     samples: Samples,
     compensations: &Compensations,
@@ -45,15 +55,15 @@ pub(crate) fn erased_mm2(
 ) -> Result<Vec<f64>, Cancelled> {
     let sublayer_of = SublayerOf::new(plan, samples.sublayers);
     let compensated = Compensated {
-        ldi,
+        image,
         sublayer_of: &sublayer_of,
         compensations,
         parts: samples.sublayers,
-        rays: ldi.grid,
+        rays: image.grid,
         offset: [0, 0],
     };
     let steps = compensated.steps();
-    let height = ldi.grid.height as usize;
+    let height = image.grid.height as usize;
     let rows = (0..height).step_by(BAND_ROWS);
     let rows: Vec<Range<usize>> = rows.map(|row| row..(row + BAND_ROWS).min(height)).collect();
     let last = if takes_all_of_a_stretch(&compensated, &rows) {
@@ -78,7 +88,7 @@ pub(crate) fn erased_mm2(
         progress,
         [0.0, 1.0],
     )?;
-    let ray_mm2 = ldi.grid.pixel_mm2();
+    let ray_mm2 = image.grid.pixel_mm2();
     let of_layers = sums.chunks(samples.sublayers as usize);
     let mut areas_mm2: Vec<f64> = of_layers
         .map(|counts| counts.iter().copied().max().unwrap_or(0))
@@ -95,20 +105,17 @@ fn takes_all_of_a_stretch(compensated: &Compensated<'_>, bands: &[Range<usize>])
     if raised_mm(compensated) == 0.0 {
         return false;
     }
-    let (ldi, entries) = (compensated.ldi, compensated.entries());
-    let width = ldi.grid.width as usize;
+    let (image, entries) = (compensated.image, compensated.entries());
     let found = parallel::map(bands.to_vec(), |rows| {
         let mut found = false;
         let mut ranges = Column::new();
-        for ray in rows.start * width..rows.end * width {
-            entries.each(
-                ldi.ray(ray),
-                ldi.classes,
-                &mut ranges,
-                |on, off, unraised| {
+        for first in rows.clone().step_by(ROWS_AT_ONCE as usize) {
+            let end = (first + ROWS_AT_ONCE as usize).min(rows.end);
+            for hits in image.of(first as u32..end as u32).rays().each() {
+                entries.each(hits, image.classes, &mut ranges, |on, off, unraised| {
                     found |= unraised < off && off <= on;
-                },
-            );
+                });
+            }
         }
         found
     });

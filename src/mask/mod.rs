@@ -27,14 +27,14 @@ pub(crate) use print_through::print_through;
 pub use print_through::{BottomErrors, PrintThroughReport};
 pub use runs::{LayerRuns, ReadPlace, Run, RunReader, RunSource};
 pub use samples::{LEVELS, Samples};
-pub use slabs::SlabMasks;
+pub use slabs::{CompensatedSlabs, SlabMasks};
 pub use window::{Side, Window};
 
 use crate::grid::Grid;
-use crate::ldi::{Ldi, Solid};
+use crate::ldi::{Ldi, RayImage, RayRows, Solid};
 use crate::parallel;
 use crate::plan::Plan;
-use compensated::Compensated;
+use compensated::{Compensated, ROWS_AT_ONCE};
 use entries::{Column, Entries, LitRanges};
 use samples::SublayerOf;
 use window::Place;
@@ -76,38 +76,13 @@ impl Masks {
     /// hit; with several, 5 bytes per change and at most two changes per hit.
     pub fn new(ldi: &Ldi, plan: &Plan, grid: &Grid, samples: Samples, side: Side) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
-        Self::of_rays(ldi, plan, grid, samples, side, &sublayer_of)
-    }
-
-    /// The masks of a plan, given the lit ranges of rays.
-    fn of_rays(
-        ldi: &Ldi,
-        plan: &Plan,
-        grid: &Grid,
-        samples: Samples,
-        side: Side,
-        ranges: &(impl LitRanges + Sync),
-    ) -> Self {
-        let width = ldi.grid.width as usize;
-        let place = Place::new(&ldi.grid, grid, samples, side);
-        Self::of_bands(plan, grid, samples, &place, |rows, changes| {
-            let mut column_ranges = Column::new();
-            for row in rows {
-                for (column, &in_row) in place.columns.iter().enumerate() {
-                    let pixel = place.rows[row] + in_row;
-                    let hits = ldi.ray(row * width + column);
-                    ranges.of_ray(hits, ldi.classes, &mut column_ranges, |on, off| {
-                        if on >= off {
-                            return;
-                        }
-                        for (sublayer, sign) in [(on, 1), (off, -1)] {
-                            each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
-                                changes.push(change);
-                            });
-                        }
-                    });
-                }
-            }
+        RayImage::Kept(ldi).read(|image| {
+            let place = Place::new(&image.grid, grid, samples, side);
+            Self::of_bands(plan.layers(), grid, samples, &place, |rows, changes| {
+                of_rays(image, samples, &place, &sublayer_of, rows, |change| {
+                    changes.push(change);
+                });
+            })
         })
     }
 
@@ -122,42 +97,68 @@ impl Masks {
         side: Side,
         compensations: &Compensations,
     ) -> Self {
+        RayImage::Kept(ldi).read(|image| {
+            let layers = 0..plan.layers();
+            Self::compensated_layers(image, plan, layers, grid, samples, side, compensations)
+        })
+    }
+
+    /// The masks of some layers of [`Self::compensated`].
+    fn compensated_layers(
+        image: &RayRows<'_>,
+        plan: &Plan,
+        layers: Range<usize>,
+        grid: &Grid,
+        samples: Samples,
+        side: Side,
+        compensations: &Compensations,
+    ) -> Self {
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+        let keep = |changes: &mut Vec<Change>, mut change: Change| {
+            if layers.contains(&change.layer()) {
+                change.lower(layers.start);
+                changes.push(change);
+            }
+        };
         if compensations.xy_mm.iter().all(|&mm| mm == 0.0) {
             let entries = Entries {
                 sublayer_of: &sublayer_of,
                 parts: samples.sublayers,
                 raise: &compensations.raise,
             };
-            return Self::of_rays(ldi, plan, grid, samples, side, &entries);
+            let place = Place::new(&image.grid, grid, samples, side);
+            return Self::of_bands(layers.len(), grid, samples, &place, |rows, changes| {
+                of_rays(image, samples, &place, &entries, rows, |change| {
+                    keep(changes, change);
+                });
+            });
         }
         let all_rays = grid.refined(samples.rays());
-        let rays = all_rays.extended(&ldi.grid, compensated::margin(compensations, &ldi.grid));
-        let offset = rays.offset_of(&ldi.grid);
+        let rays = compensated::extended(compensations, &all_rays, &image.grid);
+        let offset = rays.offset_of(&image.grid);
         let place = Place::new(&rays, grid, samples, side);
         let compensated = Compensated {
-            ldi,
+            image,
             sublayer_of: &sublayer_of,
             compensations,
             parts: samples.sublayers,
             rays,
             offset,
         };
-        Self::of_bands(plan, grid, samples, &place, |rows, changes| {
+        Self::of_bands(layers.len(), grid, samples, &place, |rows, changes| {
             let pixel_of = |row: usize, column: usize| place.rows[row] + place.columns[column];
-            compensated.changes(rows, pixel_of, |change| changes.push(change));
+            compensated.changes(rows, pixel_of, |change| keep(changes, change));
         })
     }
 
     /// The masks of the changes that `find` adds for rows of rays.
     fn of_bands(
-        plan: &Plan,
+        layers: usize,
         grid: &Grid,
         samples: Samples,
         place: &Place,
         find: impl Fn(Range<usize>, &mut Vec<Change>) + Sync + Send,
     ) -> Self {
-        let layers = plan.layers();
         let bands = parallel::map(place.bands(), |rows| {
             let area = place.area(&rows);
             let mut changes = Vec::new();
@@ -201,6 +202,38 @@ impl Masks {
         };
         cursor.change(self, 0, 1);
         cursor
+    }
+}
+
+/// Calls `emit` for the changes of rows of rays, given the lit ranges of each ray.
+fn of_rays(
+    image: &RayRows<'_>,
+    samples: Samples,
+    place: &Place,
+    ranges: &impl LitRanges,
+    rows: Range<usize>,
+    mut emit: impl FnMut(Change),
+) {
+    let width = image.grid.width as usize;
+    let mut column_ranges = Column::new();
+    for first in rows.clone().step_by(ROWS_AT_ONCE as usize) {
+        let end = (first + ROWS_AT_ONCE as usize).min(rows.end);
+        let held = image.of(first as u32..end as u32);
+        let rays = held.rays();
+        for row in first..end {
+            for (column, &in_row) in place.columns.iter().enumerate() {
+                let pixel = place.rows[row] + in_row;
+                let hits = rays.ray((row - first) * width + column);
+                ranges.of_ray(hits, image.classes, &mut column_ranges, |on, off| {
+                    if on >= off {
+                        return;
+                    }
+                    for (sublayer, sign) in [(on, 1), (off, -1)] {
+                        each_change(sublayer, samples.sublayers, sign, pixel, &mut emit);
+                    }
+                });
+            }
+        }
     }
 }
 

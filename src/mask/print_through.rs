@@ -8,7 +8,7 @@ use super::Samples;
 use super::entries::{Column, CuredRange, Entries, Raise};
 use super::samples::SublayerOf;
 use crate::cure::{Cure, Light, LitRange};
-use crate::ldi::Ldi;
+use crate::ldi::{RayImage, RayRows};
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -58,7 +58,7 @@ const LEAST_MM2: f64 = 4.0;
 const LEAST_OFF_MM2: f64 = 0.5;
 
 /// Rows of a band.
-const BAND_ROWS: usize = 64;
+const BAND_ROWS: usize = 32;
 
 /// The most cures that the same masks are examined under.
 const MOST_CURES: usize = 4;
@@ -118,7 +118,19 @@ impl Tally {
 /// # Errors
 /// [`Cancelled`].
 pub(crate) fn print_through(
-    ldi: &Ldi,
+    image: RayImage<'_>,
+    plan: &Plan,
+    samples: Samples,
+    raise: &Raise,
+    others: &[Cure],
+    tolerance_mm: Option<f64>,
+    progress: &mut Progress<'_>,
+) -> Result<Option<PrintThroughReport>, Cancelled> {
+    image.read(|image| of_rays(image, plan, samples, raise, others, tolerance_mm, progress))
+}
+
+fn of_rays(
+    image: &RayRows<'_>,
     plan: &Plan,
     samples: Samples,
     raise: &Raise,
@@ -135,7 +147,7 @@ pub(crate) fn print_through(
         parts: samples.sublayers,
         raise,
     };
-    let (width, height) = (ldi.grid.width as usize, ldi.grid.height as usize);
+    let (width, height) = (image.grid.width as usize, image.grid.height as usize);
     let bands = (0..height).step_by(BAND_ROWS);
     let bands = bands.map(|row| row..(row + BAND_ROWS).min(height));
     let empty = Tally {
@@ -148,9 +160,11 @@ pub(crate) fn print_through(
         |rows: Range<usize>| {
             let mut tally = empty.clone();
             let mut ranges = Column::new();
-            for ray in rows.start * width..rows.end * width {
+            let held = image.of(rows.start as u32..rows.end as u32);
+            for (ray, hits) in held.rays().each().enumerate() {
+                let ray = rows.start * width + ray;
                 let mut lights = Lights::default();
-                entries.each_cured(cure, ldi.ray(ray), ldi.classes, &mut ranges, |range| {
+                entries.each_cured(cure, hits, image.classes, &mut ranges, |range| {
                     lights.pass(ray, range, cure, others, tolerance_mm, &mut tally);
                 });
             }
@@ -171,13 +185,13 @@ pub(crate) fn print_through(
     let after = errors(all.after, mended);
     let at_mm = |at: Option<(usize, f64)>| {
         let (ray, z_mm) = at.unwrap_or_default();
-        let middle = ldi
+        let middle = image
             .grid
             .centre_mm((ray % width) as u32, (ray / width) as u32);
         // Hundredths are enough to find a place.
         [middle.x, middle.y, z_mm].map(|mm| (mm * 100.0).round() / 100.0)
     };
-    let area_mm2 = |rays: u64| rays as f64 * ldi.grid.pixel_mm2();
+    let area_mm2 = |rays: u64| rays as f64 * image.grid.pixel_mm2();
     let within = all
         .others
         .iter()

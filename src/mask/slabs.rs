@@ -10,11 +10,13 @@ use std::ops::Range;
 use super::runs::ReadPlace;
 use super::samples::SublayerOf;
 use super::window::Place;
-use super::{Band, Change, LayerRuns, Masks, RunReader, RunSource, Samples, Side, each_change};
+use super::{
+    Band, Change, Compensations, LayerRuns, Masks, RunReader, RunSource, Samples, Side, each_change,
+};
 use crate::grid::Grid;
 use crate::ldi::cpu::Scan;
 use crate::ldi::projection::Projection;
-use crate::ldi::{Hit, printed_crossings};
+use crate::ldi::{Hit, RayImage, printed_crossings};
 use crate::model::{FacetClasses, Mesh, Winding};
 use crate::parallel;
 use crate::plan::Plan;
@@ -94,6 +96,100 @@ fn hits_of_layers(mesh: &Mesh, rays: &Grid, plan: &Plan) -> Vec<f64> {
         .collect()
 }
 
+/// The masks of [`Masks::compensated`], without an LDI.
+#[derive(Debug)]
+pub struct CompensatedSlabs<'a> {
+    /// The masks without compensation, whose slabs these have, too.
+    pub masks: SlabMasks<'a>,
+    /// The rays.
+    pub image: RayImage<'a>,
+    /// The side from which masks are seen.
+    pub side: Side,
+    /// Compensations in the masks.
+    pub compensations: &'a Compensations,
+}
+
+impl RunSource for CompensatedSlabs<'_> {
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        Box::new(CompensatedReader {
+            slabs: self,
+            slab: None,
+            next: 0,
+        })
+    }
+}
+
+struct CompensatedReader<'a> {
+    slabs: &'a CompensatedSlabs<'a>,
+    /// The masks of the slab, and how far they have been read.
+    slab: Option<(Masks, ReadPlace)>,
+    /// The next slab.
+    next: usize,
+}
+
+impl RunReader for CompensatedReader<'_> {
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        read_slabs(self, layers)
+    }
+}
+
+impl Slabs for CompensatedReader<'_> {
+    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)> {
+        &mut self.slab
+    }
+
+    /// Compensation depends on all hits of a ray, so each slab passes over all rays.
+    fn find(&mut self) -> Masks {
+        let CompensatedSlabs {
+            masks:
+                SlabMasks {
+                    plan,
+                    grid,
+                    samples,
+                    slabs,
+                    ..
+                },
+            image,
+            side,
+            compensations,
+        } = self.slabs;
+        let layers = slabs[self.next].clone();
+        self.next += 1;
+        image.read(|image| {
+            Masks::compensated_layers(image, plan, layers, grid, *samples, *side, compensations)
+        })
+    }
+}
+
+/// Masks that are found slab by slab.
+trait Slabs {
+    /// The masks of the slab, and how far they have been read.
+    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)>;
+
+    /// Finds the masks of the next slab.
+    fn find(&mut self) -> Masks;
+}
+
+fn read_slabs(slabs: &mut impl Slabs, layers: usize) -> LayerRuns {
+    let mut found = Vec::new();
+    let mut left = layers;
+    while left > 0 {
+        if let Some((masks, read)) = slabs.slab()
+            && read.left(masks) > 0
+        {
+            let count = left.min(read.left(masks));
+            left -= count;
+            found.push(read.next(masks, count));
+            continue;
+        }
+        let read = slabs.slab().take().map(|(_, read)| read);
+        let masks = slabs.find();
+        let read = read.map_or_else(|| ReadPlace::new(&masks), ReadPlace::restarted);
+        *slabs.slab() = Some((masks, read));
+    }
+    LayerRuns::joined(found)
+}
+
 impl RunSource for SlabMasks<'_> {
     fn reader(&self) -> Box<dyn RunReader + '_> {
         let bands = self.place.bands();
@@ -133,26 +229,16 @@ struct Reader<'a> {
 
 impl RunReader for Reader<'_> {
     fn next(&mut self, layers: usize) -> LayerRuns {
-        let mut found = Vec::new();
-        let mut left = layers;
-        while left > 0 {
-            match &mut self.slab {
-                Some((masks, read)) if read.left(masks) > 0 => {
-                    let count = left.min(read.left(masks));
-                    left -= count;
-                    found.push(read.next(masks, count));
-                }
-                _ => self.open_slab(),
-            }
-        }
-        LayerRuns::joined(found)
+        read_slabs(self, layers)
     }
 }
 
-impl Reader<'_> {
-    /// Finds the changes of the next slab in place of those of the last.
-    fn open_slab(&mut self) {
-        let read = self.slab.take().map(|(_, read)| read);
+impl Slabs for Reader<'_> {
+    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)> {
+        &mut self.slab
+    }
+
+    fn find(&mut self) -> Masks {
         let SlabMasks {
             mesh,
             rays,
@@ -210,18 +296,13 @@ impl Reader<'_> {
             self.carried.push(later);
             bands.push(band);
         }
-        let masks = Masks {
+        Masks {
             grid: self.masks.grid,
             samples: *samples,
             window: place.window,
             layers: layers.len(),
             bands,
-        };
-        let read = match read {
-            Some(read) => read.restarted(),
-            None => ReadPlace::new(&masks),
-        };
-        self.slab = Some((masks, read));
+        }
     }
 }
 

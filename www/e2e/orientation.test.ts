@@ -181,7 +181,7 @@ test("a search fills the sphere and offers three directions; they are applied by
   await page.keyboard.press("End");
   await expect.poll(picture).not.toBe(unturned);
   await searched(page);
-  const outdated = panel(page).getByText("Found with other settings");
+  const outdated = panel(page).getByText("Found with settings");
   expect(await outdated.count()).toBe(0);
   await openPanel(page, "Slice");
   await page.getByLabel("Tolerance", { exact: true }).fill("0.08");

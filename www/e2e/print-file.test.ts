@@ -71,7 +71,7 @@ test("print files that are damaged say where and how, in the page's language, an
   delete files["layers/00005.png"];
   await drop(page, { name: "gap.zip", bytes: zipSync(files) });
   const view = await opened(page);
-  expect(await view.locator(".verdict").innerText()).toContain("1 layer is damaged, first layer 6: there is no layers/00005.png");
+  expect(await view.locator(".verdict").innerText()).toContain("1 layer is damaged, starting with layer 6: there is no layers/00005.png");
   const slider = view.getByRole("slider", { name: "Layer", exact: true });
   await slider.fill("6");
   await expect.poll(() => view.locator("[aria-live]").innerText()).toContain("This layer cannot be read.");

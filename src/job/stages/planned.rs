@@ -11,8 +11,8 @@ use crate::cure::Cure;
 use crate::job::Error;
 use crate::ldi::LdiError;
 use crate::mask::{
-    Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks, erased_mm2,
-    print_through,
+    CompensatedSlabs, Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks,
+    erased_mm2, print_through,
 };
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
@@ -116,7 +116,7 @@ impl Planned {
         Ok(planned)
     }
 
-    /// Errors of surfaces that face down, over all models and copies. Without an LDI nothing is known.
+    /// Errors of surfaces that face down, over all models and copies.
     fn measure_print_through(
         &self,
         progress: &mut Progress<'_>,
@@ -129,13 +129,10 @@ impl Planned {
         let tolerance_mm = is_distance.then_some(self.findings.tolerance);
         let mut all: Option<PrintThroughReport> = None;
         for model in &self.models {
-            let Ok(ldi) = model.sampled().ldi() else {
-                continue;
-            };
             let samples = model.sampled().sampling.samples;
             let mut within = |_| progress(1.0);
             let its = print_through(
-                ldi,
+                model.sampled().image(),
                 &self.plan,
                 samples,
                 raise,
@@ -155,8 +152,7 @@ impl Planned {
         Ok(all)
     }
 
-    /// The warning about what compensation erases. Without an LDI there are no compensated masks,
-    /// and nothing is known.
+    /// The warning about what compensation erases.
     fn erased(&self, progress: &mut Progress<'_>) -> Result<Option<Warning>, Cancelled> {
         let Some(compensations) = &self.compensations else {
             return Ok(None);
@@ -164,12 +160,10 @@ impl Planned {
         let mut of_layers_mm2 = vec![0.0; self.plan.layers()];
         let share = 1.0 / self.models.len() as f64;
         for (place, model) in self.models.iter().enumerate() {
-            let Ok(ldi) = model.sampled().ldi() else {
-                continue;
-            };
             let samples = model.sampled().sampling.samples;
+            let image = model.sampled().image();
             let mut within = |fraction| progress(share * (place as f64 + fraction));
-            let areas_mm2 = erased_mm2(ldi, &self.plan, samples, compensations, &mut within)?;
+            let areas_mm2 = erased_mm2(image, &self.plan, samples, compensations, &mut within)?;
             for (sum_mm2, area_mm2) in of_layers_mm2.iter_mut().zip(areas_mm2) {
                 *sum_mm2 += area_mm2 * model.copies as f64;
             }
@@ -228,7 +222,7 @@ impl Planned {
     /// The same to be read once, slab by slab if there is no LDI.
     ///
     /// # Errors
-    /// [`Error::MemoryBound`] if there is no LDI, and masks are compensated, which takes it.
+    /// As [`Self::masks`].
     pub fn runs(&self, model: usize, side: Side) -> Result<Box<dyn RunSource + '_>, Error> {
         let sampled = self.models[model].sampled();
         let Sampled {
@@ -238,14 +232,21 @@ impl Planned {
             ..
         } = sampled;
         Ok(match sampled.bound() {
-            Some(Bound { slab_bytes, .. }) if self.compensations.is_none() => {
+            Some(Bound { slab_bytes, .. }) => {
                 let (mesh, samples) = (sampled.mesh(), sampling.samples);
                 let plan = &self.plan;
-                Box::new(SlabMasks::new(
-                    mesh, *rays, plan, grid, samples, side, slab_bytes,
-                ))
+                let masks = SlabMasks::new(mesh, *rays, plan, grid, samples, side, slab_bytes);
+                match &self.compensations {
+                    None => Box::new(masks),
+                    Some(compensations) => Box::new(CompensatedSlabs {
+                        masks,
+                        image: sampled.image(),
+                        side,
+                        compensations,
+                    }),
+                }
             }
-            _ => Box::new(self.masks(model, side)?),
+            None => Box::new(self.masks(model, side)?),
         })
     }
 }
