@@ -13,7 +13,7 @@ use super::limits::Limits;
 use super::overhang;
 use super::rows::{Disc, Rows, Span};
 use super::thickness::Thickness;
-use crate::mask::{LayerRuns, Masks, RunReader, RunSource};
+use crate::mask::{LayerRuns, RunReader};
 use crate::parallel;
 
 /// Layers that are read at a time.
@@ -74,10 +74,10 @@ struct Checks<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// `short` are the short columns of the masks.
+    /// `short` reads the short columns of the masks, lit ones and dark ones, if there are any.
     pub fn new(
-        masks: &'a Masks,
-        short: &'a [Masks; 2],
+        masks: Box<dyn RunReader + 'a>,
+        short: [Option<Box<dyn RunReader + 'a>>; 2],
         frame: &'a Frame<'a>,
         limits: &'a Limits,
     ) -> Self {
@@ -98,10 +98,8 @@ impl<'a> Reader<'a> {
         };
         Self {
             checks,
-            masks: masks.reader(),
-            short: short
-                .each_ref()
-                .map(|it| (!it.is_black()).then(|| it.reader())),
+            masks,
+            short,
             next: 0,
             last: None,
         }

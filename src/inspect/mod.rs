@@ -35,7 +35,8 @@ pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
 pub(crate) use solid::stands_when_solid;
 
-use crate::mask::Masks;
+use crate::grid::Grid;
+use crate::mask::{Masks, RunSource, Window};
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress, report};
 use collect::{Collector, Frame};
@@ -92,7 +93,9 @@ pub struct Printability {
 /// # Errors
 /// [`Cancelled`].
 pub fn floating(
-    masks: &Masks,
+    masks: &dyn RunSource,
+    window: &Window,
+    grid: &Grid,
     plan: &Plan,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Finding>, Cancelled> {
@@ -100,7 +103,9 @@ pub fn floating(
         severity: Severities::FLOATING,
         ..Limits::default()
     };
-    let mut findings = inspect(masks, plan, &limits, &Held::default(), progress)?.findings;
+    let frame = Frame::new(grid, Area::new(window, grid), plan);
+    let reader = Reader::new(masks.reader(), [None, None], &frame, &limits);
+    let mut findings = read(reader, &frame, &limits, &Held::default(), progress)?.findings;
     findings.retain(|it| it.severity > Severity::Note);
     Ok(findings)
 }
@@ -124,11 +129,24 @@ pub fn inspect(
     report(progress, 0.0)?;
     let area = Area::new(&masks.window, &masks.grid);
     let frame = Frame::new(&masks.grid, area, plan);
-    let mut collector = Collector::new(limits);
     let short = columns::short(masks, &frame, limits);
+    let readers = short.each_ref();
+    let readers = readers.map(|it| (!it.is_black()).then(|| it.reader()));
     report(progress, 0.1)?;
-    let mut sweep = Sweep::new(&frame, limits, held);
-    let mut reader = Reader::new(masks, &short, &frame, limits);
+    let reader = Reader::new(masks.reader(), readers, &frame, limits);
+    read(reader, &frame, limits, held, progress)
+}
+
+/// Checks the layers that a reader reads.
+fn read(
+    mut reader: Reader<'_>,
+    frame: &Frame<'_>,
+    limits: &Limits,
+    held: &Held,
+    progress: &mut Progress<'_>,
+) -> Result<Printability, Cancelled> {
+    let mut collector = Collector::new(limits);
+    let mut sweep = Sweep::new(frame, limits, held);
     while reader.done() < 1.0 {
         for layer in reader.next() {
             sweep.advance(layer, &mut collector);

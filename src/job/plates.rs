@@ -19,7 +19,9 @@ use crate::argsort::sort_by_number;
 use crate::format::Format;
 use crate::inspect::{self, Finding};
 use crate::ldi::LdiError;
-use crate::mask::{LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, Side, Stamp};
+use crate::mask::{
+    LayerRuns, MaskCursor, PlateMasks, PlateReadPlace, PlateRuns, RunSource, Side, Stamp, Window,
+};
 use crate::progress::Progress;
 
 /// A plate with its plan and its report.
@@ -46,21 +48,26 @@ impl Plate {
     }
 
     /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that would stand if
-    /// they were solid. Without all hits in memory nothing is looked for.
+    /// they were solid. Without all hits in memory, hollow models without supports are left out.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
     pub fn floating(&mut self, progress: &mut Progress<'_>) -> Result<Vec<Finding>, Error> {
         let planned = Arc::clone(&self.planned);
+        let are_held = self.are_all_held();
         let is_prepared = |model: &&PlannedModel| {
             let prepared = &model.sampled().prepared;
-            prepared.supports.is_some() || prepared.hollowed.is_some()
+            prepared.supports.is_some() || are_held && prepared.hollowed.is_some()
         };
         let prepared = planned.models.iter().filter(is_prepared).count();
-        if !self.are_all_held() || prepared == 0 {
+        if prepared == 0 {
             return Ok(Vec::new());
         }
-        let (masks, _) = self.seen()?;
+        let masks = if are_held {
+            Some(Arc::clone(&self.seen()?.0))
+        } else {
+            None
+        };
         let mut found = Vec::new();
         let mut done = 0.0;
         for (place, model) in planned.models.iter().enumerate() {
@@ -68,10 +75,18 @@ impl Plate {
                 continue;
             }
             let mut within = |fraction| progress((done + fraction) / prepared as f64);
-            let masks = &masks.stamps[place].masks;
-            let floating = inspect::floating(masks, &planned.plan, &mut within);
-            let mut floating = floating.map_err(LdiError::from)?;
             let sampled = model.sampled();
+            let slabs;
+            let grid = &sampled.grid;
+            let (runs, window): (&dyn RunSource, _) = if let Some(masks) = &masks {
+                let masks = &masks.stamps[place].masks;
+                (masks, masks.window)
+            } else {
+                slabs = planned.runs(place, Side::Above)?;
+                (&*slabs, Window::whole(grid))
+            };
+            let floating = inspect::floating(runs, &window, grid, &planned.plan, &mut within);
+            let mut floating = floating.map_err(LdiError::from)?;
             if !sampled.is_supported() {
                 let ldi = sampled.ldi()?;
                 floating.retain(|it| {

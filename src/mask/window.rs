@@ -19,6 +19,16 @@ pub struct Window {
 }
 
 impl Window {
+    /// The window of a whole mask.
+    pub(crate) fn whole(grid: &Grid) -> Self {
+        Self {
+            first_byte: 0,
+            first_row: 0,
+            row_bytes: grid.width.div_ceil(8) as usize,
+            rows: grid.height as usize,
+        }
+    }
+
     /// Pixels per row of the window. The last ones may lie beyond the mask.
     pub fn row_pixels(&self) -> usize {
         self.row_bytes * 8

@@ -182,6 +182,30 @@ fn voids_and_supports_are_found_anew_as_well() {
 }
 
 #[test]
+fn pieces_that_float_are_found_anew() {
+    // Nothing holds the ball.
+    let options = Options {
+        supports: Some(Supporting {
+            points: Some(Vec::new()),
+            ..Supporting::default()
+        }),
+        ..options()
+    };
+    let ball = solids::moved(&solids::sphere(12.0, 5), Vec3::splat(12.0));
+    let refused = |mut slicer: Slicer| {
+        plan(&mut slicer, &options).unwrap();
+        let error = slicer.write_archive(Vec::new(), &mut quiet).unwrap_err();
+        assert_eq!(error.code(), "floating-pieces");
+        serde_json::to_value(error).unwrap()
+    };
+    let least = least_bytes(&ball, &options);
+    assert_eq!(
+        refused(load(&ball)),
+        refused(load(&ball).with_memory(least))
+    );
+}
+
+#[test]
 fn metrics_of_areas_and_weights_are_measured_anew() {
     for metric in [Metric::Area, Metric::Volume, Metric::Deviation] {
         let options = Options {
