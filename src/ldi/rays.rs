@@ -86,7 +86,8 @@ pub enum RayImage<'a> {
 #[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
-    Scanned(Scan<'a>),
+    /// With the permission, so that this is not compiled where there is none.
+    Scanned(Scan<'a>, Anew),
 }
 
 /// The rays of an image, which are read in any order: see [`RayImage::read`].
@@ -105,7 +106,7 @@ pub enum HeldRays<'a> {
     /// Rays of an LDI.
     Kept(Rays<'a>),
     /// Rays that were found.
-    Scanned(ScannedRays),
+    Scanned(ScannedRays, Anew),
 }
 
 impl HeldRays<'_> {
@@ -113,7 +114,7 @@ impl HeldRays<'_> {
     pub fn rays(&self) -> Rays<'_> {
         match self {
             Self::Kept(rays) => *rays,
-            Self::Scanned(scanned) => scanned.rays(),
+            Self::Scanned(scanned, _) => scanned.rays(),
         }
     }
 }
@@ -125,7 +126,7 @@ impl RayRows<'_> {
     pub fn of(&self, rows: Range<u32>) -> HeldRays<'_> {
         match &self.source {
             Bands::Kept(ldi) => HeldRays::Kept(ldi.rows(rows)),
-            Bands::Scanned(scan) => HeldRays::Scanned(scan.of_rows(rows)),
+            Bands::Scanned(scan, leave) => HeldRays::Scanned(scan.of_rows(rows), *leave),
         }
     }
 }
@@ -163,10 +164,14 @@ impl RayImage<'_> {
         let projection;
         let (image, rounds) = match self {
             Self::Kept(ldi) => (Bands::Kept(ldi), 1),
-            Self::Scanned { mesh, ref grid, .. } => {
+            Self::Scanned {
+                mesh,
+                ref grid,
+                leave,
+            } => {
                 projection = Projection::new(mesh, grid);
                 let scan = Scan::new(&projection, grid, mesh.classes);
-                (Bands::Scanned(scan), ROUNDS)
+                (Bands::Scanned(scan, leave), ROUNDS)
             }
         };
         let round_bands = part_bands.div_ceil(rounds);
@@ -180,7 +185,7 @@ impl RayImage<'_> {
                     let scanned;
                     let rays = match &image {
                         Bands::Kept(ldi) => ldi.band(band),
-                        Bands::Scanned(scan) => {
+                        Bands::Scanned(scan, _) => {
                             scanned = scan.band(band);
                             scanned.rays()
                         }
@@ -199,9 +204,13 @@ impl RayImage<'_> {
         let projection;
         let source = match self {
             Self::Kept(ldi) => Bands::Kept(ldi),
-            Self::Scanned { mesh, ref grid, .. } => {
+            Self::Scanned {
+                mesh,
+                ref grid,
+                leave,
+            } => {
                 projection = Projection::new(mesh, grid);
-                Bands::Scanned(Scan::new(&projection, grid, mesh.classes))
+                Bands::Scanned(Scan::new(&projection, grid, mesh.classes), leave)
             }
         };
         read(&RayRows {
