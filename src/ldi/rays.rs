@@ -90,7 +90,7 @@ enum Bands<'a> {
     Scanned(Scan<'a>, Anew),
 }
 
-/// The rays of an image, which are read in any order: see [`RayImage::read`].
+/// The rays of an image, which are read in any order.
 #[derive(Debug)]
 pub struct RayRows<'a> {
     /// The grid whose pixel centres the rays pass.
@@ -122,7 +122,7 @@ impl HeldRays<'_> {
 impl RayRows<'_> {
     /// Some rows of rays.
     ///
-    /// Cost: nothing for rays of an LDI; otherwise linear in the facets, rows and hits of the bands of [`BAND_ROWS`] that the rows meet.
+    /// Cost: nothing for rays of an LDI; otherwise linear in the facets, rows and hits of the bands of 32 rows that these meet.
     pub fn of(&self, rows: Range<u32>) -> HeldRays<'_> {
         match &self.source {
             Bands::Kept(ldi) => HeldRays::Kept(ldi.rows(rows)),

@@ -22,7 +22,7 @@ export function platePanel(facts: Facts): TemplateResult | typeof nothing {
   if (!plate.isSeveral) {
     const { copies } = language.texts.plate;
     return html`<div class="copies-row">
-      <span aria-hidden="true">${copies}</span>${copiesField(plate, 0, language)} ${addButton(facts)}
+      <span class="copies-number"><span aria-hidden="true">${copies}</span>${copiesField(plate, 0, language)}</span> ${addButton(facts)}
     </div>`;
   }
   if (!plateCode.isThere) return plateCode.instead(element, language);

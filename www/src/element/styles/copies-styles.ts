@@ -37,7 +37,13 @@ export const copiesStyles = css`
   .copies-row .button {
     white-space: nowrap;
   }
-  .copies-row .copies ~ .button {
+  .copies-number {
+    display: inline-flex;
+    flex-wrap: wrap;
+    align-items: center;
+    gap: 0.375rem;
+  }
+  .copies-number ~ .button {
     margin-inline-start: auto;
     padding-inline: 0.375rem;
     font-size: 0.8125rem;
