@@ -433,6 +433,11 @@ impl JobOptions {
         }
     }
 
+    /// Returns true if copies on a plate may stand turned about z.
+    pub(super) fn may_turn(&self) -> bool {
+        self.arranging.turn_deg > 0 || !self.placements.is_empty()
+    }
+
     /// Checks that there are not too many copies.
     pub(super) fn check_count(&self) -> Result<(), ArrangeError> {
         let of_models = self.models.iter().map(|model| model.copies);

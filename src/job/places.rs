@@ -98,7 +98,13 @@ impl Job {
 
     fn prepare_silently(&mut self, options: &JobOptions, resolved: &Resolved) -> Result<(), Error> {
         let mut silent = |_, _| std::ops::ControlFlow::Continue(());
-        self.prepare(options, resolved, &mut Timings::default(), &mut silent)
+        self.prepare(
+            options,
+            resolved,
+            options.may_turn(),
+            &mut Timings::default(),
+            &mut silent,
+        )
     }
 
     /// The sampling of a model, after turns.

@@ -126,7 +126,7 @@ impl Job {
         check_own_prepared(options, &resolved, self.models.len())?;
         timings.load += self.models.iter().map(|model| model.load_ms).sum::<f64>();
         if is_alone {
-            self.prepare(options, &resolved, timings, progress)?;
+            self.prepare(options, &resolved, false, timings, progress)?;
             return Ok(Layout {
                 resolved,
                 shared,
@@ -150,7 +150,7 @@ impl Job {
             .into());
         }
         let screen = screen_of(&resolved.sampling)?;
-        self.prepare(options, &resolved, timings, progress)?;
+        self.prepare(options, &resolved, options.may_turn(), timings, progress)?;
         let clock = Instant::now();
         let places = if options.placements.is_empty() {
             self.arranged(options, &resolved, &screen)?

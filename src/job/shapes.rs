@@ -54,7 +54,15 @@ impl Upright<'_> {
         } else {
             // Turned once, its vertices are rounded once.
             let mut timings = Timings::default();
-            Prepared::new(self.mesh, &sampling, None, None, &mut timings, &mut silent)
+            Prepared::new(
+                self.mesh,
+                &sampling,
+                true,
+                None,
+                None,
+                &mut timings,
+                &mut silent,
+            )
         };
         Ok(Arc::new(made?))
     }
@@ -66,11 +74,12 @@ impl Upright<'_> {
 }
 
 impl Job {
-    /// Poses the models, and adds voids and supports.
+    /// Poses the models, and adds voids and supports. Models that do not fit as they stand are refused at once, unless copies may turn.
     pub(super) fn prepare(
         &mut self,
         options: &JobOptions,
         resolved: &Resolved,
+        may_turn: bool,
         timings: &mut Timings,
         progress: &mut StageProgress<'_>,
     ) -> Result<(), Error> {
@@ -96,8 +105,15 @@ impl Job {
                     let mesh = &self.models[model].mesh;
                     let mut within = |fraction| within(Stage::Ldi, PREPARING_SHARE * fraction);
                     let last = last.as_deref();
-                    let made =
-                        Prepared::new(mesh, &sampling, protected, last, timings, &mut within);
+                    let made = Prepared::new(
+                        mesh,
+                        &sampling,
+                        may_turn,
+                        protected,
+                        last,
+                        timings,
+                        &mut within,
+                    );
                     Arc::new(made?)
                 }
             };

@@ -2,6 +2,7 @@
 
 use cusp_slicer::arrange::{ArrangeError, Arranging};
 use cusp_slicer::job::{Job, JobOptions, ModelOptions, Options, Placement};
+use cusp_slicer::prepare::Hollowing;
 use glam::Vec3;
 
 use super::{job, options, pixels, placed, plan, plate, supported};
@@ -170,6 +171,40 @@ fn supports_count_when_copies_are_arranged() {
     assert_eq!(plate(&models).problems(&placed(&bare, &near)).unwrap(), []);
     let problems = plate(&models).problems(&placed(&options, &near)).unwrap();
     assert!(!problems.is_empty());
+}
+
+#[test]
+fn prepared_models_that_fit_only_when_turned_are_turned() {
+    let hollow = Options {
+        hollow: Some(Hollowing {
+            wall_mm: 1.0,
+            ..Hollowing::default()
+        }),
+        ..options()
+    };
+    let plans = |length_mm: f32, options: &Options, turn_deg: u32| {
+        let bar = solids::cuboid(Vec3::new(length_mm, 3.0, 5.0));
+        let options = JobOptions {
+            arranging: Arranging {
+                turn_deg,
+                ..Arranging::default()
+            },
+            ..job(options.clone(), &[2])
+        };
+        let planned = plan(&mut plate(&[&bar]), &options);
+        planned.map_err(|error| error.code())
+    };
+    // What takes time to prepare is refused before that.
+    let refused = ["plate-too-small", "model-too-large", "model-too-large"];
+    for (options, code) in [options(), hollow, supported()].into_iter().zip(refused) {
+        let report = plans(42.0, &options, 15).unwrap();
+        let places = report.plates.iter().flat_map(|plate| &plate.placements);
+        assert!(places.clone().all(|place| place.turn_deg % 90 != 0));
+        assert_eq!(places.count(), 2);
+        // The plate is 40 mm wide, and its diagonal 50 mm long.
+        assert_eq!(plans(42.0, &options, 0).unwrap_err(), code);
+        assert_eq!(plans(51.0, &options, 15).unwrap_err(), code);
+    }
 }
 
 fn plates_of(

@@ -172,6 +172,28 @@ impl Sampling {
         }
     }
 
+    /// Refuses a model that cannot fit the printer: as it stands, or if copies may turn, in any direction.
+    ///
+    /// # Errors
+    /// [`GridError`].
+    pub fn check_fit(
+        &self,
+        bounds: &Bounds,
+        lift_mm: f64,
+        may_turn: bool,
+    ) -> Result<(), GridError> {
+        match self.grid(bounds, lift_mm) {
+            Err(GridError::ModelTooLarge {
+                model_mm_x,
+                model_mm_y,
+                grid_mm_x,
+                grid_mm_y,
+                ..
+            }) if may_turn && model_mm_x.max(model_mm_y) <= grid_mm_x.hypot(grid_mm_y) => Ok(()),
+            fit => fit.map(drop),
+        }
+    }
+
     /// The pixels of the masks for a model with its supports.
     ///
     /// # Errors

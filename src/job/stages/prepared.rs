@@ -112,14 +112,15 @@ pub struct Supported {
 pub const PREPARING_SHARE: f64 = 0.5;
 
 impl Prepared {
-    /// Poses the model, and adds voids and supports unless it does not fit the printer. The void is that of `last`, if that is hollowed
-    /// alike.
+    /// Poses the model, and adds voids and supports unless it does not fit the printer, in no direction if copies may turn. The void is
+    /// that of `last`, if that is hollowed alike.
     ///
     /// # Errors
     /// [`Error::Mesh`], [`Error::Grid`], [`Error::Ldi`].
     pub fn new(
         model: &Mesh,
         sampling: &Sampling,
+        may_turn: bool,
         protected: Option<&[f32]>,
         last: Option<&Self>,
         timings: &mut Timings,
@@ -136,7 +137,8 @@ impl Prepared {
             alike
         } else {
             let mut within = |fraction| progress(between * fraction);
-            let made = Unsupported::new(model, sampling, protected, timings, &mut within)?;
+            let made =
+                Unsupported::new(model, sampling, may_turn, protected, timings, &mut within)?;
             Arc::new(made)
         };
         let clock = Instant::now();
@@ -305,6 +307,7 @@ impl Unsupported {
     fn new(
         model: &Mesh,
         sampling: &Sampling,
+        may_turn: bool,
         protected: Option<&[f32]>,
         timings: &mut Timings,
         progress: &mut Progress<'_>,
@@ -316,7 +319,7 @@ impl Unsupported {
         let mut mesh = bare.as_ref().unwrap_or(model).on_plate(&sampling.pose)?;
         mesh.widen_supports(sampling.wider_mm);
         if Prepared::takes_time(sampling) {
-            sampling.grid(&mesh.bounds(), sampling.lift_mm(&mesh))?;
+            sampling.check_fit(&mesh.bounds(), sampling.lift_mm(&mesh), may_turn)?;
         }
         timings.load += ms_since(clock);
         let clock = Instant::now();
