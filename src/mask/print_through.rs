@@ -57,8 +57,8 @@ const LEAST_MM2: f64 = 4.0;
 /// The least area of a layer out of tolerance that is reported. Most models have a few rays at edges.
 const LEAST_OFF_MM2: f64 = 0.5;
 
-/// Rows of a band.
-const BAND_ROWS: usize = 32;
+/// Rows of a band, in whose order errors are summed.
+const BAND_ROWS: usize = 64;
 
 /// The most cures that the same masks are examined under.
 const MOST_CURES: usize = 4;
