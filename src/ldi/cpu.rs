@@ -157,29 +157,22 @@ impl<'a> Scan<'a> {
         first..(first + BAND_ROWS).min(self.grid.height)
     }
 
-    /// The rays of a band.
-    pub fn band(&self, band: usize) -> ScannedRays {
-        self.part(band, self.rows(band), None)
-    }
-
     /// The rays of some rows.
     pub(super) fn of_rows(&self, rows: Range<u32>) -> ScannedRays {
-        let mut all = ScannedRays {
-            first_row: rows.start,
-            offsets: vec![0],
-            hits: Vec::new(),
-            classes: self.classes,
-        };
-        let mut start = rows.start;
-        while start < rows.end {
+        let part_of = |start: u32| {
             let band = (start / BAND_ROWS) as usize;
-            let end = self.rows(band).end.min(rows.end);
-            let part = self.part(band, start..end, None);
+            self.part(band, start..self.rows(band).end.min(rows.end), None)
+        };
+        let mut all = part_of(rows.start);
+        let width = self.grid.width as usize;
+        let mut start = rows.start + (all.rays().count() / width) as u32;
+        while start < rows.end {
+            let part = part_of(start);
+            start += (part.rays().count() / width) as u32;
             let base = all.hits.len() as u32;
             all.offsets
                 .extend(part.offsets[1..].iter().map(|offset| base + offset));
             all.hits.extend(part.hits);
-            start = end;
         }
         all
     }

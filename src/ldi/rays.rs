@@ -120,6 +120,38 @@ impl HeldRays<'_> {
 }
 
 impl RayRows<'_> {
+    /// [`RayImage::fold`].
+    fn fold<T: Send>(
+        &self,
+        first: impl Fn() -> T,
+        step: impl Fn(&mut T, Rays<'_>) + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<T>, Cancelled> {
+        let height = self.grid.height;
+        let bands = height.div_ceil(BAND_ROWS) as usize;
+        let part_bands = bands.div_ceil(PARTS).max(1);
+        let rounds = match self.source {
+            Bands::Kept(_) => 1,
+            Bands::Scanned(..) => ROUNDS,
+        };
+        let round_bands = part_bands.div_ceil(rounds);
+        let starts = (0..bands).step_by(part_bands);
+        let mut parts: Vec<(usize, T)> = starts.map(|band| (band, first())).collect();
+        for round in (0..part_bands).step_by(round_bands) {
+            report(progress, round as f64 / part_bands as f64)?;
+            parts = parallel::map(parts, |(start, mut value)| {
+                let end = (start + part_bands).min(bands);
+                for band in start + round..(start + round + round_bands).min(end) {
+                    let first_row = band as u32 * BAND_ROWS;
+                    let held = self.of(first_row..(first_row + BAND_ROWS).min(height));
+                    step(&mut value, held.rays());
+                }
+                (start, value)
+            });
+        }
+        Ok(parts.into_iter().map(|(_, value)| value).collect())
+    }
+
     /// Some rows of rays.
     ///
     /// Cost: nothing for rays of an LDI; otherwise linear in the facets, rows and hits of the bands of 32 rows that these meet.
@@ -159,43 +191,7 @@ impl RayImage<'_> {
         step: impl Fn(&mut T, Rays<'_>) + Sync + Send,
         progress: &mut Progress<'_>,
     ) -> Result<Vec<T>, Cancelled> {
-        let bands = self.grid().height.div_ceil(BAND_ROWS) as usize;
-        let part_bands = bands.div_ceil(PARTS).max(1);
-        let projection;
-        let (image, rounds) = match self {
-            Self::Kept(ldi) => (Bands::Kept(ldi), 1),
-            Self::Scanned {
-                mesh,
-                ref grid,
-                leave,
-            } => {
-                projection = Projection::new(mesh, grid);
-                let scan = Scan::new(&projection, grid, mesh.classes);
-                (Bands::Scanned(scan, leave), ROUNDS)
-            }
-        };
-        let round_bands = part_bands.div_ceil(rounds);
-        let starts = (0..bands).step_by(part_bands);
-        let mut parts: Vec<(usize, T)> = starts.map(|band| (band, first())).collect();
-        for round in (0..part_bands).step_by(round_bands) {
-            report(progress, round as f64 / part_bands as f64)?;
-            parts = parallel::map(parts, |(start, mut value)| {
-                let end = (start + part_bands).min(bands);
-                for band in start + round..(start + round + round_bands).min(end) {
-                    let scanned;
-                    let rays = match &image {
-                        Bands::Kept(ldi) => ldi.band(band),
-                        Bands::Scanned(scan, _) => {
-                            scanned = scan.band(band);
-                            scanned.rays()
-                        }
-                    };
-                    step(&mut value, rays);
-                }
-                (start, value)
-            });
-        }
-        Ok(parts.into_iter().map(|(_, value)| value).collect())
+        self.read(|image| image.fold(first, step, progress))
     }
 
     /// Reads the rays in any order: `read` is called once.
@@ -235,12 +231,6 @@ impl RayImage<'_> {
 }
 
 impl Ldi {
-    /// The rays of a band of [`BAND_ROWS`] rows.
-    fn band(&self, band: usize) -> Rays<'_> {
-        let first_row = band as u32 * BAND_ROWS;
-        self.rows(first_row..(first_row + BAND_ROWS).min(self.grid.height))
-    }
-
     fn rows(&self, rows: Range<u32>) -> Rays<'_> {
         let width = self.grid.width as usize;
         let offsets = &self.offsets[rows.start as usize * width..=rows.end as usize * width];

@@ -11,7 +11,7 @@ use super::entries::{Column, Raise};
 use super::samples::SublayerOf;
 use super::step::{Disc, Step, Stretch, without};
 use super::{Compensations, Samples};
-use crate::ldi::{RayImage, RayRows};
+use crate::ldi::RayRows;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -37,16 +37,6 @@ const BAND_ROWS: usize = 128;
 /// # Errors
 /// [`Cancelled`].
 pub(crate) fn erased_mm2(
-    image: RayImage<'_>,
-    plan: &Plan,
-    samples: Samples,
-    compensations: &Compensations,
-    progress: &mut Progress<'_>,
-) -> Result<Vec<f64>, Cancelled> {
-    image.read(|image| erased_of_mm2(image, plan, samples, compensations, progress))
-}
-
-fn erased_of_mm2(
     image: &RayRows<'_>,
     plan: &Plan,
     samples: Samples,

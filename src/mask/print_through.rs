@@ -8,7 +8,7 @@ use super::Samples;
 use super::entries::{Column, CuredRange, Entries, Raise};
 use super::samples::SublayerOf;
 use crate::cure::{Cure, Light, LitRange};
-use crate::ldi::{RayImage, RayRows};
+use crate::ldi::RayRows;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -118,18 +118,6 @@ impl Tally {
 /// # Errors
 /// [`Cancelled`].
 pub(crate) fn print_through(
-    image: RayImage<'_>,
-    plan: &Plan,
-    samples: Samples,
-    raise: &Raise,
-    others: &[Cure],
-    tolerance_mm: Option<f64>,
-    progress: &mut Progress<'_>,
-) -> Result<Option<PrintThroughReport>, Cancelled> {
-    image.read(|image| of_rays(image, plan, samples, raise, others, tolerance_mm, progress))
-}
-
-fn of_rays(
     image: &RayRows<'_>,
     plan: &Plan,
     samples: Samples,

@@ -131,15 +131,18 @@ impl Planned {
         for model in &self.models {
             let samples = model.sampled().sampling.samples;
             let mut within = |_| progress(1.0);
-            let its = print_through(
-                model.sampled().image(),
-                &self.plan,
-                samples,
-                raise,
-                &others,
-                tolerance_mm,
-                &mut within,
-            )?;
+            let its = model.sampled().image().read(|image| {
+                let plan = &self.plan;
+                print_through(
+                    image,
+                    plan,
+                    samples,
+                    raise,
+                    &others,
+                    tolerance_mm,
+                    &mut within,
+                )
+            })?;
             let Some(its) = its else {
                 return Ok(None);
             };
@@ -163,7 +166,8 @@ impl Planned {
             let samples = model.sampled().sampling.samples;
             let image = model.sampled().image();
             let mut within = |fraction| progress(share * (place as f64 + fraction));
-            let areas_mm2 = erased_mm2(image, &self.plan, samples, compensations, &mut within)?;
+            let areas_mm2 = image
+                .read(|image| erased_mm2(image, &self.plan, samples, compensations, &mut within))?;
             for (sum_mm2, area_mm2) in of_layers_mm2.iter_mut().zip(areas_mm2) {
                 *sum_mm2 += area_mm2 * model.copies as f64;
             }
