@@ -82,8 +82,8 @@ pub struct Facts {
     pub ray_options: [&'static str; RAY_OPTIONS.len()],
 }
 
-/// Usual values of numbers that people type, from and to, by option. One beyond them is probably in another unit: layers of 50 mm are of
-/// 50 µm. The core takes more, but for walls, nozzles, overcure and retained doses.
+/// Usual values of numbers that people type, from and to, by option. A number beyond them is probably in another unit: someone
+/// who types layers of 50 mm means 50 µm. Except for walls, nozzles, overcure and retained doses, the core accepts more.
 #[derive(Debug, Serialize)]
 #[cfg_attr(target_arch = "wasm32", derive(tsify::Tsify))]
 #[expect(missing_docs, reason = "the fields are the options")]

@@ -86,7 +86,7 @@ pub enum RayImage<'a> {
 #[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
-    /// With the permission, so that this is not compiled where there is none.
+    /// Where [`Anew`] has no values, this has none either, and its code is not compiled.
     Scanned(Scan<'a>, Anew),
 }
 

@@ -110,84 +110,26 @@ pub struct CompensatedSlabs<'a> {
 }
 
 impl RunSource for CompensatedSlabs<'_> {
-    fn reader(&self) -> Box<dyn RunReader + '_> {
-        Box::new(CompensatedReader {
-            slabs: self,
-            slab: None,
-            next: 0,
-        })
-    }
-}
-
-struct CompensatedReader<'a> {
-    slabs: &'a CompensatedSlabs<'a>,
-    /// The masks of the slab, and how far they have been read.
-    slab: Option<(Masks, ReadPlace)>,
-    /// The next slab.
-    next: usize,
-}
-
-impl RunReader for CompensatedReader<'_> {
-    fn next(&mut self, layers: usize) -> LayerRuns {
-        read_slabs(self, layers)
-    }
-}
-
-impl Slabs for CompensatedReader<'_> {
-    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)> {
-        &mut self.slab
-    }
-
     /// Compensation depends on all hits of a ray, so each slab passes over all rays.
-    fn find(&mut self) -> Masks {
-        let CompensatedSlabs {
-            masks:
-                SlabMasks {
-                    plan,
-                    grid,
-                    samples,
-                    slabs,
-                    ..
-                },
+    fn reader(&self) -> Box<dyn RunReader + '_> {
+        let Self {
             image,
             side,
             compensations,
-        } = self.slabs;
-        let layers = slabs[self.next].clone();
-        self.next += 1;
-        image.read(|image| {
-            Masks::compensated_layers(image, plan, layers, grid, *samples, *side, compensations)
+            ref masks,
+        } = *self;
+        let SlabMasks {
+            plan,
+            ref grid,
+            samples,
+            ..
+        } = *masks;
+        Reader::boxed(&masks.slabs, move |layers| {
+            image.read(|image| {
+                Masks::compensated_layers(image, plan, layers, grid, samples, side, compensations)
+            })
         })
     }
-}
-
-/// Masks that are found slab by slab.
-trait Slabs {
-    /// The masks of the slab, and how far they have been read.
-    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)>;
-
-    /// Finds the masks of the next slab.
-    fn find(&mut self) -> Masks;
-}
-
-fn read_slabs(slabs: &mut impl Slabs, layers: usize) -> LayerRuns {
-    let mut found = Vec::new();
-    let mut left = layers;
-    while left > 0 {
-        if let Some((masks, read)) = slabs.slab()
-            && read.left(masks) > 0
-        {
-            let count = left.min(read.left(masks));
-            left -= count;
-            found.push(read.next(masks, count));
-            continue;
-        }
-        let read = slabs.slab().take().map(|(_, read)| read);
-        let masks = slabs.find();
-        let read = read.map_or_else(|| ReadPlace::new(&masks), ReadPlace::restarted);
-        *slabs.slab() = Some((masks, read));
-    }
-    LayerRuns::joined(found)
 }
 
 impl RunSource for SlabMasks<'_> {
@@ -198,20 +140,68 @@ impl RunSource for SlabMasks<'_> {
             Windings::new(rays, self.mesh.classes)
         });
         let carried = bands.iter().map(|_| Vec::new()).collect();
-        Box::new(Reader {
+        let mut finder = Finder {
             projection: Projection::new(self.mesh, &self.rays),
             sublayer_of: SublayerOf::new(self.plan, self.samples.sublayers),
             windings: windings.collect(),
             carried,
             bands,
             masks: self,
-            slab: None,
-            next: 0,
-        })
+        };
+        Reader::boxed(&self.slabs, move |layers| finder.find(layers))
     }
 }
 
-struct Reader<'a> {
+/// Reads masks that `find` makes slab by slab.
+struct Reader<'a, F> {
+    slabs: &'a [Range<usize>],
+    find: F,
+    /// The next slab.
+    next: usize,
+    /// The masks of the slab before it, and how far they have been read.
+    slab: Option<(Masks, ReadPlace)>,
+}
+
+impl<'a, F: FnMut(Range<usize>) -> Masks + 'a> Reader<'a, F> {
+    fn boxed(slabs: &'a [Range<usize>], find: F) -> Box<dyn RunReader + 'a> {
+        Box::new(Self {
+            slabs,
+            find,
+            next: 0,
+            slab: None,
+        })
+    }
+
+    /// Finds the masks of the next slab in place of the last.
+    fn open_slab(&mut self) {
+        let read = self.slab.take().map(|(_, read)| read);
+        let masks = (self.find)(self.slabs[self.next].clone());
+        self.next += 1;
+        let read = read.map_or_else(|| ReadPlace::new(&masks), ReadPlace::restarted);
+        self.slab = Some((masks, read));
+    }
+}
+
+impl<'a, F: FnMut(Range<usize>) -> Masks + 'a> RunReader for Reader<'a, F> {
+    fn next(&mut self, layers: usize) -> LayerRuns {
+        let mut found = Vec::new();
+        let mut left = layers;
+        while left > 0 {
+            match &mut self.slab {
+                Some((masks, read)) if read.left(masks) > 0 => {
+                    let count = left.min(read.left(masks));
+                    left -= count;
+                    found.push(read.next(masks, count));
+                }
+                _ => self.open_slab(),
+            }
+        }
+        LayerRuns::joined(found)
+    }
+}
+
+/// Finds the masks of one slab after another.
+struct Finder<'a> {
     masks: &'a SlabMasks<'a>,
     projection: Projection<'a>,
     sublayer_of: SublayerOf,
@@ -221,24 +211,10 @@ struct Reader<'a> {
     windings: Vec<Windings>,
     /// For each band, changes that already belong to the next slab.
     carried: Vec<Vec<Change>>,
-    /// The masks of the slab, and how far they have been read.
-    slab: Option<(Masks, ReadPlace)>,
-    /// The next slab.
-    next: usize,
 }
 
-impl RunReader for Reader<'_> {
-    fn next(&mut self, layers: usize) -> LayerRuns {
-        read_slabs(self, layers)
-    }
-}
-
-impl Slabs for Reader<'_> {
-    fn slab(&mut self) -> &mut Option<(Masks, ReadPlace)> {
-        &mut self.slab
-    }
-
-    fn find(&mut self) -> Masks {
+impl Finder<'_> {
+    fn find(&mut self, layers: Range<usize>) -> Masks {
         let SlabMasks {
             mesh,
             rays,
@@ -246,8 +222,6 @@ impl Slabs for Reader<'_> {
             place,
             ..
         } = self.masks;
-        let layers = self.masks.slabs[self.next].clone();
-        self.next += 1;
         let heights = self.sublayer_of.slab(&layers, samples.sublayers);
         let width = rays.width as usize;
         let scan = Scan::of_slab(&self.projection, rays, mesh.classes, heights);

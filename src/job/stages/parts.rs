@@ -172,7 +172,8 @@ impl Sampling {
         }
     }
 
-    /// Refuses a model that cannot fit the printer: as it stands, or if copies may turn, in any direction.
+    /// Refuses a model that does not fit the printer as it stands. If copies may turn, refuses it only if it is longer than the plate's
+    /// diagonal: arranging decides about the others.
     ///
     /// # Errors
     /// [`GridError`].
