@@ -2,7 +2,8 @@
 
 use super::collect::{Collector, Frame};
 use super::finding::{Code, Finding};
-use super::forest::{End, Forest, Joining, Step, Tree};
+use super::forest::{End, Forest, Joining, Tree};
+use super::layer::Layer;
 use super::limits::Limits;
 
 /// The bodies of the layers so far.
@@ -27,9 +28,9 @@ impl<'a> Bodies<'a> {
         }
     }
 
-    pub fn advance(&mut self, step: &Step<'_>, collector: &mut Collector<'_>) {
-        for (tree, end) in self.forest.advance(step) {
-            self.end(&tree, end, step.layer, collector);
+    pub fn advance(&mut self, layer: &Layer, collector: &mut Collector<'_>) {
+        for (tree, end) in self.forest.rise(layer, self.frame) {
+            self.end(&tree, end, layer.number, collector);
         }
     }
 

@@ -124,6 +124,13 @@ impl Components {
         spans.zip(self.of_span[places].iter().copied())
     }
 
+    /// The component with a pixel.
+    pub fn at(&self, [column, row]: [i32; 2]) -> Option<u32> {
+        let mut spans = self.of_row(row);
+        let found = spans.find(|(span, _)| (span.start..span.end).contains(&column));
+        found.map(|(_, component)| component)
+    }
+
     /// Pairs of a component and one of the layer below that share a column of pixels. A pair may be there more than once.
     pub fn contacts(&self, below: &Self) -> Vec<[u32; 2]> {
         let mut pairs = Vec::new();

@@ -4,7 +4,9 @@
 //! meet below, or begin new ones. The same sweep finds bodies and islands among lit components, cups and traps among dark
 //! ones, and joins findings of consecutive layers.
 
+use super::collect::Frame;
 use super::components::{NONE, Patch};
+use super::layer::Layer;
 use crate::argsort::sort_by_number;
 use crate::union_find::{find, unite};
 
@@ -90,7 +92,7 @@ pub(super) struct Step<'a> {
     pub patches: &'a [Patch],
     /// Pairs of a component of the layer below and one of this layer.
     pub contacts: &'a [[u32; 2]],
-    /// Components of this layer that are fixed, argsort.
+    /// Components of this layer that are fixed, in ascending order.
     pub fixed: &'a [u32],
     /// Components of the layer below that this layer joins with the outside.
     pub fixed_below: &'a [u32],
@@ -193,6 +195,20 @@ impl Forest {
         }
         self.of_component = node;
         ended
+    }
+
+    /// Goes on to the lit components of the next layer, of which those of the first stand on the plate. Returns the trees that end below it.
+    pub fn rise(&mut self, layer: &Layer, frame: &Frame<'_>) -> Vec<(Tree, End)> {
+        let patches = &layer.alone.lit.patches;
+        let on_plate: Vec<u32> = (0..patches.len() as u32).collect();
+        self.advance(&Step {
+            layer: layer.number,
+            bins: frame.bins(layer.number),
+            patches,
+            contacts: &layer.contacts,
+            fixed: if layer.number == 0 { &on_plate } else { &[] },
+            fixed_below: &[],
+        })
     }
 
     /// Ends trees that have just joined older ones, or makes them one.

@@ -33,7 +33,7 @@ pub use finding::{Code, Finding};
 pub use held::Held;
 pub use limits::{Limits, LimitsError, Severities, Severity};
 pub use peel::Peel;
-pub(crate) use solid::stands_when_solid;
+pub(crate) use solid::retain_held;
 
 use crate::grid::Grid;
 use crate::mask::{Masks, RunSource, Window};

@@ -4,7 +4,6 @@ use super::bodies::Bodies;
 use super::collect::{Collector, Frame};
 use super::drain_openings::Openings;
 use super::finding::Code;
-use super::forest::Step;
 use super::held::{Held, Holds};
 use super::hollows::Hollows;
 use super::layer::Layer;
@@ -56,18 +55,8 @@ impl<'a> Sweep<'a> {
 
     pub fn advance(&mut self, layer: Layer, collector: &mut Collector<'_>) {
         let frame = self.frame;
-        let (number, lit) = (layer.number, &layer.alone.lit);
-        let patches = &lit.patches;
-        let on_plate: Vec<u32> = (0..patches.len() as u32).collect();
-        let step = Step {
-            layer: number,
-            bins: frame.bins(number),
-            patches,
-            contacts: &layer.contacts,
-            fixed: if number == 0 { &on_plate } else { &[] },
-            fixed_below: &[],
-        };
-        self.bodies.advance(&step, collector);
+        let number = layer.number;
+        self.bodies.advance(&layer, collector);
         let gaps = &layer.alone.gaps;
         self.hollows.advance(number, gaps, &layer.links, collector);
         let (rooms, links) = (&layer.alone.rooms, &layer.room_links);
@@ -91,7 +80,7 @@ impl<'a> Sweep<'a> {
         for (regions, rows) in regions {
             regions.advance(number, rows, frame, collector);
         }
-        self.peeling.advance(patches);
+        self.peeling.advance(&layer.alone.lit.patches);
     }
 
     /// The number of bodies, and the areas to be peeled off.

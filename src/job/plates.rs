@@ -47,8 +47,8 @@ impl Plate {
         models.all(|model| model.sampled().bound().is_none())
     }
 
-    /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that would stand if
-    /// they were solid. Without all hits in memory, hollow models without supports are left out.
+    /// Pieces that would float in the vat, from the largest down: of supported models all, of hollow ones those that the solid model
+    /// would hold.
     ///
     /// # Errors
     /// [`Error::Ldi`] if `progress` cancels.
@@ -57,7 +57,7 @@ impl Plate {
         let are_held = self.are_all_held();
         let is_prepared = |model: &&PlannedModel| {
             let prepared = &model.sampled().prepared;
-            prepared.supports.is_some() || are_held && prepared.hollowed.is_some()
+            prepared.supports.is_some() || prepared.hollowed.is_some()
         };
         let prepared = planned.models.iter().filter(is_prepared).count();
         if prepared == 0 {
@@ -87,11 +87,8 @@ impl Plate {
             };
             let floating = inspect::floating(runs, &window, grid, &planned.plan, &mut within);
             let mut floating = floating.map_err(LdiError::from)?;
-            if !sampled.is_supported() {
-                let ldi = sampled.ldi()?;
-                floating.retain(|it| {
-                    inspect::stands_when_solid(ldi, &planned.plan, it.at_mm, it.layers[0])
-                });
+            if !sampled.is_supported() && !floating.is_empty() {
+                planned.retain_held(place, &mut floating, &mut within)?;
             }
             found.extend(floating);
             done += 1.0;

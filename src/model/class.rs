@@ -68,9 +68,10 @@ impl FacetClasses {
         *self.starts.get(class as usize).unwrap_or(&self.count) as usize
     }
 
-    /// The classes after the facets of supports are removed.
-    pub(super) fn without_supports(mut self) -> Self {
-        self.count = self.starts[2];
+    /// The classes after the facets of later classes are removed.
+    pub(super) fn up_to(mut self, class: FacetClass) -> Self {
+        self.count = self.end(class) as u32;
+        self.starts = self.starts.map(|start| start.min(self.count));
         self
     }
 

@@ -260,11 +260,22 @@ impl Mesh {
     /// The mesh without supports.
     #[must_use]
     pub fn bare(&self) -> Self {
-        let facets = self.facets[..self.classes.end(FacetClass::Void)].to_vec();
+        self.up_to(FacetClass::Void)
+    }
+
+    /// The mesh without supports and voids.
+    #[must_use]
+    pub fn solid(&self) -> Self {
+        self.up_to(FacetClass::Cap)
+    }
+
+    /// The mesh without the facets of later classes.
+    fn up_to(&self, class: FacetClass) -> Self {
+        let classes = self.classes.up_to(class);
         Self {
             vertices: self.vertices.clone(),
-            classes: self.classes.without_supports(),
-            facets,
+            facets: self.facets[..classes.end(class)].to_vec(),
+            classes,
             neighbours: Arc::clone(&self.neighbours),
             tips: [0; 2],
             ..*self

@@ -17,8 +17,9 @@ use std::env;
 use std::ops::ControlFlow;
 use std::process::Command;
 
+use cusp_slicer::Error;
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::job::Stage;
+use cusp_slicer::job::{Options, Stage};
 use cusp_slicer::ldi::{Ldi, cpu};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
@@ -27,6 +28,19 @@ use glam::Vec3;
 /// A slicer of the model that a file of these triangles has.
 pub fn load(triangles: &[[Vec3; 3]]) -> Slicer {
     Slicer::load(&binary_stl(triangles)).unwrap()
+}
+
+/// The least memory within which a job can be done.
+pub fn least_memory_bytes(triangles: &[[Vec3; 3]], options: &Options) -> u64 {
+    let mut slicer = load(triangles).with_memory(1);
+    let planned = pollster::block_on(slicer.plan(options, &mut quiet));
+    match planned.map(|report| report.layers) {
+        Err(Error::MemoryBound {
+            needed_bytes,
+            allowed_bytes: 1,
+        }) => needed_bytes,
+        other => panic!("{other:?}"),
+    }
 }
 
 /// Bins of 1 mm.

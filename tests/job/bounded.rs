@@ -17,7 +17,7 @@ use cusp_slicer::resin::{PrintThrough, Resin};
 use glam::Vec3;
 
 use super::plan;
-use crate::common::{load, on_plate, quiet, solids};
+use crate::common::{least_memory_bytes, load, on_plate, quiet, solids};
 
 /// Fine enough for several slabs within the least memory.
 fn options() -> Options {
@@ -42,22 +42,10 @@ fn without_times(report: &Report) -> serde_json::Value {
     report
 }
 
-/// The least bytes within which a job can be done.
-fn least_bytes(triangles: &solids::Triangles, options: &Options) -> u64 {
-    let mut slicer = load(triangles).with_memory(1);
-    match plan(&mut slicer, options) {
-        Err(Error::MemoryBound {
-            needed_bytes,
-            allowed_bytes: 1,
-        }) => needed_bytes,
-        other => panic!("{other:?}"),
-    }
-}
-
 #[track_caller]
 fn assert_same_within_least_memory(triangles: &solids::Triangles, options: &Options) {
     let kept = sliced(&mut load(triangles), options);
-    let least = least_bytes(triangles, options);
+    let least = least_memory_bytes(triangles, options);
     let mut slicer = load(triangles).with_memory(least);
     let anew = sliced(&mut slicer, options);
     assert_eq!(kept.0, anew.0);
@@ -198,7 +186,7 @@ fn pieces_that_float_are_found_anew() {
         assert_eq!(error.code(), "floating-pieces");
         serde_json::to_value(error).unwrap()
     };
-    let least = least_bytes(&ball, &options);
+    let least = least_memory_bytes(&ball, &options);
     assert_eq!(
         refused(load(&ball)),
         refused(load(&ball).with_memory(least))
@@ -254,7 +242,7 @@ fn a_plate_of_models_and_copies_is_the_same() {
 
 #[test]
 fn what_takes_all_hits_says_how_much_that_is() {
-    let least = least_bytes(&crowd(), &options());
+    let least = least_memory_bytes(&crowd(), &options());
     let mut slicer = load(&crowd()).with_memory(least);
     plan(&mut slicer, &options()).unwrap();
     let limits = cusp_slicer::inspect::Limits::default();

@@ -1,6 +1,6 @@
 //! Surfaces that would fail in the vat: shelves close together, ceilings of voids, and mouths of drain holes.
 
-use crate::common::{assert_near, load, quiet, solids};
+use crate::common::{assert_near, least_memory_bytes, load, quiet, solids};
 use cusp_slicer::compensation::Compensation;
 use cusp_slicer::inspect::{Code, Limits, Printability};
 use cusp_slicer::job::Supported;
@@ -432,7 +432,13 @@ fn a_hollow_model_is_refused_for_the_pieces_that_its_holes_cut_off_alone() {
     let floating = |options: &Options| {
         let mut slicer = load(&model);
         plan(&mut slicer, options);
-        slicer.floating(&mut quiet).unwrap()
+        let found = slicer.floating(&mut quiet).unwrap();
+        let least = least_memory_bytes(&model, options);
+        let mut bounded = load(&model).with_memory(least);
+        plan(&mut bounded, options);
+        assert!(bounded.mask(0).is_err());
+        assert_eq!(bounded.floating(&mut quiet).unwrap(), found);
+        found
     };
     assert_eq!(floating(&hollow(Vec::new())), []);
     // The middle of the model is at x = 14.

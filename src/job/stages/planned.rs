@@ -8,15 +8,16 @@ use super::parts::Layering;
 use super::planning::{Findings, Planning};
 use super::sampled::Sampled;
 use crate::cure::Cure;
+use crate::inspect::{self, Finding};
 use crate::job::Error;
-use crate::ldi::LdiError;
+use crate::ldi::{LdiError, cpu};
 use crate::mask::{
     CompensatedSlabs, Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks,
-    erased_mm2, print_through,
+    Window, erased_mm2, print_through,
 };
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
-use crate::progress::{Cancelled, Progress};
+use crate::progress::{Cancelled, Progress, silent};
 use crate::warning::Warning;
 
 /// The most plans until planes at flats that face down stay.
@@ -252,6 +253,42 @@ impl Planned {
             }
             None => Box::new(self.masks(model, side)?),
         })
+    }
+
+    /// Keeps the pieces of a hollow model, by its index, that the solid model would hold.
+    ///
+    /// # Errors
+    /// [`LdiError::Cancelled`].
+    pub fn retain_held(
+        &self,
+        model: usize,
+        pieces: &mut Vec<Finding>,
+        progress: &mut Progress<'_>,
+    ) -> Result<(), LdiError> {
+        let sampled = self.models[model].sampled();
+        let Sampled {
+            grid,
+            rays,
+            sampling,
+            ..
+        } = sampled;
+        let (solid, plan) = (sampled.mesh().solid(), &self.plan);
+        let (samples, side) = (sampling.samples, Side::Above);
+        let mut retain = |masks: &dyn RunSource, window: &Window| {
+            inspect::retain_held(pieces, masks, window, grid, plan, progress)
+        };
+        match sampled.bound() {
+            None => {
+                let ldi = cpu::sample(&solid, rays, &mut silent)?;
+                let masks = Masks::new(&ldi, plan, grid, samples, side);
+                retain(&masks, &masks.window)?;
+            }
+            Some(Bound { slab_bytes, .. }) => {
+                let masks = SlabMasks::new(&solid, *rays, plan, grid, samples, side, slab_bytes);
+                retain(&masks, &Window::whole(grid))?;
+            }
+        }
+        Ok(())
     }
 }
 
