@@ -2,7 +2,7 @@
 
 use std::sync::Arc;
 
-use glam::{DVec3, Vec3};
+use glam::{DVec2, DVec3, Vec3};
 use rustc_hash::{FxHashMap, FxHashSet};
 use serde::Serialize;
 
@@ -241,7 +241,10 @@ impl Mesh {
             .iter()
             .copied()
             .partition(|corners| theirs.contains(&key(corners[0])));
-        let supports = Self::from_triangles(&supports)?;
+        let mut supports = Self::from_triangles(&supports)?;
+        for vertex in &mut supports.vertices {
+            vertex.z = vertex.z.max(found.feet);
+        }
         let mut mesh = Self::with_caps(&model, all_curved)?;
         mesh.add(&supports.vertices, &supports.facets, FacetClass::Support);
         let first = mesh.vertices.len() as u32;
@@ -294,22 +297,41 @@ impl Mesh {
         (below_mm.max(0.0) * 1e6).round() / 1e6
     }
 
-    /// Moves the surface of supports outward, along the plate.
+    /// Moves the sides of supports outward, along the plate.
     pub fn widen_supports(&mut self, by_mm: f64) {
         if by_mm == 0.0 {
             return;
         }
-        let mut normals: FxHashMap<u32, DVec3> = FxHashMap::default();
-        for corners in self.of_class(FacetClass::Support) {
+        let supports = self.of_class(FacetClass::Support);
+        let normals = supports.iter().map(|corners| {
             let [a, b, c] = corners.map(|vertex| self.vertices[vertex as usize].as_dvec3());
+            (corners, (b - a).cross(c - a))
+        });
+        let mut outward: FxHashMap<u32, DVec2> = FxHashMap::default();
+        for (corners, normal) in normals.clone() {
             for &vertex in corners {
-                *normals.entry(vertex).or_default() += (b - a).cross(c - a);
+                *outward.entry(vertex).or_default() += normal.truncate();
             }
         }
-        for (vertex, normal) in normals {
+        // A corner moves farther than the sides that meet there.
+        let mut farther: FxHashMap<u32, f64> = FxHashMap::default();
+        for (corners, normal) in normals {
+            let side = normal.truncate();
+            if 2.0 * side.length() <= normal.length() {
+                continue;
+            }
+            for vertex in corners {
+                let along = side.normalize_or_zero();
+                let along = along.dot(outward[vertex].normalize_or_zero());
+                let farther = farther.entry(*vertex).or_insert(1.0);
+                *farther = farther.max(1.0 / along.max(0.5));
+            }
+        }
+        for (vertex, outward) in outward {
+            let by_mm = by_mm * farther.get(&vertex).unwrap_or(&1.0);
+            let by = (outward.normalize_or_zero() * by_mm).extend(0.0);
             let at = &mut self.vertices[vertex as usize];
-            let level = normal.with_z(0.0).normalize_or_zero();
-            *at = (at.as_dvec3() + level * by_mm).as_vec3();
+            *at = (at.as_dvec3() + by).as_vec3();
         }
     }
 

@@ -40,6 +40,12 @@ const FEWEST: usize = 3;
 /// Ratio of a member's volume to that of the cone along it: blades and plates have less.
 const FILLING: std::ops::RangeInclusive<f64> = 0.4..=2.6;
 
+/// Greatest height of feet above the lowest point: exports of branching supports are placed on the plate by a brace that is lower.
+const FEET_MM: f64 = 2.0;
+
+/// Greatest distance of a vertex from the cone, as a part of the cone's greater radius: members that are joined have more.
+const OFF: f64 = 0.6;
+
 /// Part of a member's length that belongs to each of its ends.
 const END: f64 = 0.35;
 
@@ -49,6 +55,8 @@ pub(super) struct OwnSupports {
     pub is_support: Vec<bool>,
     /// Places where they hold the model.
     pub tips: Vec<DVec3>,
+    /// Height of their feet: what is lower belongs below the plate.
+    pub feet: f32,
 }
 
 /// A body as a cone with round ends along its longest direction.
@@ -93,6 +101,9 @@ pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
         return None;
     }
     let rafts: Vec<&Member> = members.iter().filter(|it| is_flat(it)).collect();
+    let parts: Vec<usize> = (0..members.len()).filter(|&it| is_thin[it]).collect();
+    let bottoms = parts.iter().map(|&it| members[it].min.z);
+    let feet = level(bottoms.filter(|&z| z <= plate + FEET_MM));
     // On the plate, or on a raft.
     let stands = |it: &Member| {
         let on_raft = |raft: &&Member| {
@@ -100,9 +111,8 @@ pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
                 && it.min.truncate().cmple(raft.max.truncate()).all()
                 && it.max.truncate().cmpge(raft.min.truncate()).all()
         };
-        it.min.z <= plate + NEAR_MM || rafts.iter().any(on_raft)
+        it.min.z <= feet + NEAR_MM || rafts.iter().any(on_raft)
     };
-    let parts: Vec<usize> = (0..members.len()).filter(|&it| is_thin[it]).collect();
     let groups = linked(mesh, &members, &parts);
     let mut is_standing = vec![false; members.len()];
     for &part in &parts {
@@ -145,7 +155,21 @@ pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
     (tips.len() >= FEWEST).then(|| OwnSupports {
         is_support: number_of.iter().map(|&it| is_own[it as usize]).collect(),
         tips,
+        feet: feet as f32,
     })
+}
+
+/// The lowest of the heights that most others are near.
+fn level(heights: impl Iterator<Item = f64>) -> f64 {
+    let mut heights: Vec<f64> = heights.collect();
+    heights.sort_by(f64::total_cmp);
+    let near = |&from: &f64| {
+        let [first, end] = [from, from + NEAR_MM].map(|z| heights.partition_point(|&it| it < z));
+        end - first
+    };
+    let most = heights.iter().map(near).max();
+    let mut levels = heights.iter().filter(|it| Some(near(it)) == most);
+    levels.next().copied().unwrap_or(f64::INFINITY)
 }
 
 /// Middles of places where members end in the model, without those too wide for tips. Points of a place are close together.
@@ -222,12 +246,20 @@ impl Member {
     fn lay_cone(&mut self, mesh: &Mesh) {
         let vertices = self.vertices.iter();
         let points = vertices.map(|&it| mesh.vertices[it as usize].as_dvec3());
-        let (ends, radii) = cone(&points.collect::<Vec<_>>());
+        let points: Vec<DVec3> = points.collect();
+        let (ends, radii) = cone(&points);
         let [low, high] = radii;
         let length = ends[0].distance(ends[1]);
         let filled = std::f64::consts::FRAC_PI_3 * length * (low * low + low * high + high * high);
-        self.is_cone = FILLING.contains(&(self.volume / filled));
         (self.ends, self.radii) = (ends, radii);
+        let off_mm = OFF * low.max(high);
+        let is_near = |at: &DVec3| {
+            let (_, part) = closest([*at; 2], ends);
+            let (axis, radius) = self.at(part);
+            // A foot may be wider.
+            at.z <= self.min.z + NEAR_MM || axis.distance(*at) <= radius + off_mm
+        };
+        self.is_cone = FILLING.contains(&(self.volume / filled)) && points.iter().all(is_near);
     }
 
     /// Returns true if an end is as narrow as a tip.
