@@ -44,6 +44,7 @@ fn row(name: &str, mesh: &Mesh, grid: &Grid) -> (f64, f64) {
     let check = || {
         inspect(
             &masks,
+            None,
             &plan,
             &Limits::default(),
             &Held::default(),

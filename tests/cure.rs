@@ -5,7 +5,7 @@ use cusp_slicer::calibration::Calibration;
 use cusp_slicer::compensation::Compensation;
 use cusp_slicer::cure::{Bridge, Cure, LitRange, fit};
 use cusp_slicer::format::Format;
-use cusp_slicer::inspect::Limits;
+use cusp_slicer::inspect::{Code, Limits};
 use cusp_slicer::job::{
     Backend, Job, JobOptions, ModelOptions, Options, Placement, Planner, Report, Snap,
 };
@@ -197,6 +197,28 @@ fn a_table_prints_at_its_height_and_without_compensation_too_low() {
     }
 }
 
+/// Checks that the only finding of a kind is the 9 by 3 mm beside the post, between these heights.
+#[track_caller]
+fn assert_found(triangles: &solids::Triangles, code: Code, wanted_mm: Option<[f64; 2]>) {
+    let mut slicer = Slicer::load(&binary_stl(triangles)).unwrap();
+    let options = options(resin(0.12, 1.0));
+    pollster::block_on(slicer.plan(&options, &mut quiet)).unwrap();
+    let checked = slicer.inspect(&Limits::default(), &mut quiet).unwrap();
+    let found = checked.findings.iter().filter(|it| it.code == code);
+    let found: Vec<_> = found.collect();
+    assert_eq!(found.len(), usize::from(wanted_mm.is_some()), "{found:?}");
+    for (finding, [from_mm, to_mm]) in found.into_iter().zip(wanted_mm) {
+        assert_near(finding.area_mm2, 27.0, 0.5);
+        let [low, high] = finding.bounds_mm;
+        let wanted = [(low, [-3.0, -1.5, from_mm]), (high, [6.0, 1.5, to_mm])];
+        for (corner, wanted) in wanted {
+            for (at_mm, wanted_mm) in corner.into_iter().zip(wanted) {
+                assert_near(at_mm, wanted_mm, 0.05 + 1e-9);
+            }
+        }
+    }
+}
+
 #[test]
 fn thin_roofs_and_gaps_that_close_are_named() {
     // Roofs of one, two and twelve layers, on posts; and a gap of 0.05 mm, which light closes.
@@ -213,6 +235,9 @@ fn thin_roofs_and_gaps_that_close_are_named() {
         assert_eq!(found.off_mm, &off_mm[..usize::from(thin_mm2 > 0.0)]);
         let is_named = |warning: &Warning| matches!(warning, Warning::ThinRoofs { .. });
         assert_eq!(report.all_warnings().iter().any(is_named), thin_mm2 > 0.0);
+        let last_mm = f64::from(roof_mm) + 3.0;
+        let wanted = (thin_mm2 > 0.0).then_some([last_mm - 0.05, last_mm]);
+        assert_found(&roof, Code::ThinRoof, wanted);
     }
     let gap = boxes(&[
         [[0.0, 0.0, 0.0], [12.0, 3.0, 3.0]],
@@ -227,6 +252,7 @@ fn thin_roofs_and_gaps_that_close_are_named() {
     );
     let is_named = |warning: &Warning| matches!(warning, Warning::ClosedGaps { .. });
     assert!(report.all_warnings().iter().any(is_named));
+    assert_found(&gap, Code::ClosedGap, Some([3.0, 3.05]));
     // A gap within a layer of several heights: what is below it and above it are the same samples, which are lit once.
     let thin = boxes(&[
         [[0.0, 0.0, 0.0], [12.0, 3.0, 3.01]],

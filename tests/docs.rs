@@ -74,6 +74,11 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
         ("gap_mm", Some(limits.gap_mm), Code::NarrowGap),
         ("hole_mm", Some(limits.hole_mm), Code::SmallHole),
         ("low_gap_mm", Some(limits.low_gap_mm), Code::LowGap),
+        (
+            "print_through_mm2",
+            Some(limits.print_through_mm2),
+            Code::ThinRoof,
+        ),
         ("peel_mm2", limits.peel_mm2, Code::PeelArea),
         ("peel_jump_mm2", limits.peel_jump_mm2, Code::PeelJump),
         ("contact", limits.contact, Code::SmallContact),

@@ -70,5 +70,5 @@ fn inspect_boxes(bytes: &[u8]) {
         ..Limits::default()
     };
     let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
-    let _ = look(&masks, &plan, &limits, &Held::default(), &mut silent);
+    let _ = look(&masks, None, &plan, &limits, &Held::default(), &mut silent);
 }

@@ -38,6 +38,10 @@ pub enum Code {
     SmallHole,
     /// A gap that is too low along z.
     LowGap,
+    /// A roof so thin that its last layer alone cures too deep below it.
+    ThinRoof,
+    /// A gap that closes, as light through its roof cures it.
+    ClosedGap,
     /// A layer that is too large to peel off.
     PeelArea,
     /// A layer that is too much larger than the one below.
@@ -48,7 +52,7 @@ pub enum Code {
 
 impl Code {
     /// All kinds, in the order in which findings are listed.
-    pub const ALL: [Self; 16] = [
+    pub const ALL: [Self; 18] = [
         Self::Island,
         Self::LooseBody,
         Self::SeparateBody,
@@ -62,6 +66,8 @@ impl Code {
         Self::NarrowGap,
         Self::SmallHole,
         Self::LowGap,
+        Self::ThinRoof,
+        Self::ClosedGap,
         Self::PeelArea,
         Self::PeelJump,
         Self::SmallContact,
@@ -83,6 +89,8 @@ impl Code {
             Self::NarrowGap => "narrow-gap",
             Self::SmallHole => "small-hole",
             Self::LowGap => "low-gap",
+            Self::ThinRoof => "thin-roof",
+            Self::ClosedGap => "closed-gap",
             Self::PeelArea => "peel-area",
             Self::PeelJump => "peel-jump",
             Self::SmallContact => "small-contact",
@@ -120,7 +128,12 @@ impl Finding {
     /// Weight by which it is compared with others of its kind.
     pub(super) fn weight(&self) -> f64 {
         match self.code {
-            Code::Cup | Code::PeelArea | Code::PeelJump | Code::SmallContact => self.area_mm2,
+            Code::Cup
+            | Code::ThinRoof
+            | Code::ClosedGap
+            | Code::PeelArea
+            | Code::PeelJump
+            | Code::SmallContact => self.area_mm2,
             _ => self.volume_mm3,
         }
     }
@@ -192,6 +205,14 @@ impl Display for Finding {
             Code::LowGap => write!(
                 f,
                 "a gap is lower than {limit} mm along z over {area:.2} mm² and may close; make it higher, or turn the model"
+            ),
+            Code::ThinRoof => write!(
+                f,
+                "a roof of {area:.2} mm² is so thin that its last layer alone cures too deep; make it thicker, or turn the model"
+            ),
+            Code::ClosedGap => write!(
+                f,
+                "a gap of {area:.2} mm² closes, as light through its roof cures it; make it higher, or turn the model"
             ),
             Code::PeelArea => write!(
                 f,

@@ -51,14 +51,19 @@ pub(super) struct Thin {
     pub holes: Rows,
     pub floors: Rows,
     pub low_gaps: Rows,
+    pub roofs: Rows,
+    pub closed_gaps: Rows,
 }
+
+/// Readers of pixels that were found along z, unless there are none: short columns, lit ones and dark ones, thin roofs, and gaps that
+/// close.
+pub(super) type Marked<'a> = [Option<Box<dyn RunReader + 'a>>; 4];
 
 /// Reads the layers of masks from the plate upward.
 pub(super) struct Reader<'a> {
     checks: Checks<'a>,
     masks: Box<dyn RunReader + 'a>,
-    /// Short columns, lit ones and dark ones, unless there are none.
-    short: [Option<Box<dyn RunReader + 'a>>; 2],
+    marked: Marked<'a>,
     next: usize,
     last: Option<Arc<Alone>>,
 }
@@ -74,10 +79,9 @@ struct Checks<'a> {
 }
 
 impl<'a> Reader<'a> {
-    /// `short` reads the short columns of the masks, lit ones and dark ones, if there are any.
     pub fn new(
         masks: Box<dyn RunReader + 'a>,
-        short: [Option<Box<dyn RunReader + 'a>>; 2],
+        marked: Marked<'a>,
         frame: &'a Frame<'a>,
         limits: &'a Limits,
     ) -> Self {
@@ -99,7 +103,7 @@ impl<'a> Reader<'a> {
         Self {
             checks,
             masks,
-            short,
+            marked,
             next: 0,
             last: None,
         }
@@ -116,8 +120,8 @@ impl<'a> Reader<'a> {
         let count = GROUP.min(self.checks.frame.layers() - first);
         self.next += count;
         let runs = self.masks.next(count);
-        let short = self
-            .short
+        let marked = self
+            .marked
             .each_mut()
             .map(|reader| reader.as_mut().map(|reader| reader.next(count)));
         let (checks, last) = (&self.checks, self.last.as_ref());
@@ -128,7 +132,7 @@ impl<'a> Reader<'a> {
         let layers = parallel::map((0..count).collect(), |place| {
             let below = place.checked_sub(1).map(|below| &alone[below]);
             let below = below.or(last).map(Arc::as_ref);
-            let thin = checks.thin(&alone[place], &short, place);
+            let thin = checks.thin(&alone[place], &marked, place);
             checks.layer(first + place, &alone[place], below, thin)
         });
         self.last = alone.into_iter().next_back().or(self.last.take());
@@ -163,10 +167,10 @@ impl Checks<'_> {
         }
     }
 
-    fn thin(&self, alone: &Alone, short: &[Option<LayerRuns>; 2], place: usize) -> Thin {
+    fn thin(&self, alone: &Alone, marked: &[Option<LayerRuns>; 4], place: usize) -> Thin {
         let lit = &alone.lit.rows;
         let area = &self.frame.area;
-        let [floors, low_gaps] = short.each_ref().map(|runs| {
+        let [floors, low_gaps, roofs, closed_gaps] = marked.each_ref().map(|runs| {
             let rows = runs.as_ref().map(|runs| Rows::of_layer(runs, place, area));
             rows.filter(|rows| !rows.is_blank())
         });
@@ -184,6 +188,8 @@ impl Checks<'_> {
                 let limit = disc(self.limits.low_gap_mm);
                 columns::thin(&short, &lit.inverted(limit.rows()), &limit)
             }),
+            roofs: roofs.unwrap_or_default(),
+            closed_gaps: closed_gaps.unwrap_or_default(),
         }
     }
 }

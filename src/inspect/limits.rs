@@ -54,6 +54,8 @@ pub struct Limits {
     pub hole_mm: f64,
     /// The lowest gap, along z, in millimetres.
     pub low_gap_mm: f64,
+    /// Thin roofs and closed gaps, which print-through makes, count from this area on: the largest of a layer, in mm².
+    pub print_through_mm2: f64,
     /// The largest area of a layer, in mm²; no limit if absent.
     pub peel_mm2: Option<f64>,
     /// The largest growth of the area from one layer to the next, in mm²; no limit if absent.
@@ -87,6 +89,7 @@ impl Default for Limits {
             gap_mm: 0.3,
             hole_mm: 0.5,
             low_gap_mm: 0.3,
+            print_through_mm2: 1.0,
             peel_mm2: None,
             peel_jump_mm2: None,
             contact: None,
@@ -131,6 +134,10 @@ pub struct Severities {
     pub small_hole: Severity,
     /// A gap that is too low.
     pub low_gap: Severity,
+    /// A roof that is thinner than light cures.
+    pub thin_roof: Severity,
+    /// A gap that light closes.
+    pub closed_gap: Severity,
     /// A layer that is too large.
     pub peel_area: Severity,
     /// A layer that is too much larger than the one below.
@@ -155,6 +162,8 @@ impl Default for Severities {
             narrow_gap: Severity::Review,
             small_hole: Severity::Review,
             low_gap: Severity::Review,
+            thin_roof: Severity::Review,
+            closed_gap: Severity::Review,
             peel_area: Severity::Review,
             peel_jump: Severity::Review,
             small_contact: Severity::Review,
@@ -180,6 +189,8 @@ impl Severities {
             narrow_gap: rest,
             small_hole: rest,
             low_gap: rest,
+            thin_roof: rest,
+            closed_gap: rest,
             peel_area: rest,
             peel_jump: rest,
             small_contact: rest,
@@ -202,6 +213,8 @@ impl Severities {
             Code::NarrowGap => self.narrow_gap,
             Code::SmallHole => self.small_hole,
             Code::LowGap => self.low_gap,
+            Code::ThinRoof => self.thin_roof,
+            Code::ClosedGap => self.closed_gap,
             Code::PeelArea => self.peel_area,
             Code::PeelJump => self.peel_jump,
             Code::SmallContact => self.small_contact,
@@ -270,6 +283,7 @@ impl Limits {
             ("island_mm2", Some(self.island_mm2)),
             ("bridge_mm", Some(self.bridge_mm)),
             ("cup_mm2", Some(self.cup_mm2)),
+            ("print_through_mm2", Some(self.print_through_mm2)),
             ("trap_ml", Some(self.trap_ml)),
             ("peel_mm2", self.peel_mm2),
             ("peel_jump_mm2", self.peel_jump_mm2),

@@ -40,7 +40,7 @@ use crate::mask::{Masks, RunSource, Window};
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress, report};
 use collect::{Collector, Frame};
-use layer::Reader;
+use layer::{Marked, Reader};
 use rows::Area;
 use sweep::Sweep;
 
@@ -104,13 +104,14 @@ pub fn floating(
         ..Limits::default()
     };
     let frame = Frame::new(grid, Area::new(window, grid), plan);
-    let reader = Reader::new(masks.reader(), [None, None], &frame, &limits);
+    let reader = Reader::new(masks.reader(), Marked::default(), &frame, &limits);
     let mut findings = read(reader, &frame, &limits, &Held::default(), progress)?.findings;
     findings.retain(|it| it.severity > Severity::Note);
     Ok(findings)
 }
 
-/// Checks the masks of a plan, which must be seen from above. Surfaces near the contacts of supports are no overhangs, and
+/// Checks the masks of a plan, which must be seen from above. `unmended` are roofs that are too thin for a cure, and gaps that it closes,
+/// as masks of their own. Surfaces near the contacts of supports are no overhangs, and
 /// walls and gaps at their tips are no findings.
 ///
 /// The result does not depend on the number of threads.
@@ -121,6 +122,7 @@ pub fn floating(
 /// [`Cancelled`].
 pub fn inspect(
     masks: &Masks,
+    unmended: Option<&[Masks; 2]>,
     plan: &Plan,
     limits: &Limits,
     held: &Held,
@@ -130,10 +132,13 @@ pub fn inspect(
     let area = Area::new(&masks.window, &masks.grid);
     let frame = Frame::new(&masks.grid, area, plan);
     let short = columns::short(masks, &frame, limits);
-    let readers = short.each_ref();
-    let readers = readers.map(|it| (!it.is_black()).then(|| it.reader()));
+    let mut marked = Marked::default();
+    let along_z = short.iter().chain(unmended.into_iter().flatten());
+    for (reader, masks) in marked.iter_mut().zip(along_z) {
+        *reader = (!masks.is_black()).then(|| masks.reader());
+    }
     report(progress, 0.1)?;
-    let reader = Reader::new(masks.reader(), readers, &frame, limits);
+    let reader = Reader::new(masks.reader(), marked, &frame, limits);
     read(reader, &frame, limits, held, progress)
 }
 

@@ -3,7 +3,7 @@
 use super::collect::Frame;
 use super::finding::Finding;
 use super::forest::{Forest, Joining};
-use super::layer::Reader;
+use super::layer::{Marked, Reader};
 use super::limits::{Limits, Severities};
 use super::rows::Area;
 use crate::grid::Grid;
@@ -31,7 +31,7 @@ pub fn retain_held(
         ..Limits::default()
     };
     let frame = Frame::new(grid, Area::new(window, grid), plan);
-    let mut reader = Reader::new(masks.reader(), [None, None], &frame, &limits);
+    let mut reader = Reader::new(masks.reader(), Marked::default(), &frame, &limits);
     let mut forest = Forest::new(Joining::Ends);
     let mut held = Vec::new();
     let mut left = std::mem::take(findings);

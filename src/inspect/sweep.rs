@@ -26,6 +26,8 @@ pub(super) struct Sweep<'a> {
     holes: Regions,
     floors: Regions,
     low_gaps: Regions,
+    roofs: Regions,
+    closed_gaps: Regions,
     peeling: Peeling<'a>,
 }
 
@@ -33,6 +35,11 @@ impl<'a> Sweep<'a> {
     pub fn new(frame: &'a Frame<'a>, limits: &'a Limits, held: &Held) -> Self {
         let regions = |code, limit_mm, least_height_mm| {
             Regions::new(code, limit_mm, limits.speck_px, least_height_mm)
+        };
+        let of_print_through = |code| {
+            let limit_mm2 = limits.print_through_mm2;
+            let least_px = (limit_mm2 / frame.grid.pixel_mm2()).ceil() as u32;
+            Regions::new(code, limit_mm2, least_px, 0.0)
         };
         Self {
             frame,
@@ -49,6 +56,8 @@ impl<'a> Sweep<'a> {
             holes: regions(Code::SmallHole, limits.hole_mm, limits.hole_mm),
             floors: regions(Code::ThinFloor, limits.floor_mm, 0.0),
             low_gaps: regions(Code::LowGap, limits.low_gap_mm, 0.0),
+            roofs: of_print_through(Code::ThinRoof),
+            closed_gaps: of_print_through(Code::ClosedGap),
             peeling: Peeling::new(frame, limits),
         }
     }
@@ -76,6 +85,8 @@ impl<'a> Sweep<'a> {
             (&mut self.holes, thin.holes),
             (&mut self.floors, thin.floors),
             (&mut self.low_gaps, thin.low_gaps),
+            (&mut self.roofs, thin.roofs),
+            (&mut self.closed_gaps, thin.closed_gaps),
         ];
         for (regions, rows) in regions {
             regions.advance(number, rows, frame, collector);
@@ -93,6 +104,8 @@ impl<'a> Sweep<'a> {
             self.holes,
             self.floors,
             self.low_gaps,
+            self.roofs,
+            self.closed_gaps,
         ] {
             regions.finish(frame, collector);
         }

@@ -256,7 +256,15 @@ impl Job {
         let found = all.map(|(place, (model, stamp))| {
             let mut within = |fraction| progress(Stage::Inspect, (place as f64 + fraction) / count);
             let held = model.sampled().held(limits);
-            let found = inspect::inspect(&stamp.masks, &planned.plan, limits, &held, &mut within);
+            let unmended = planned.unmended(place);
+            let found = inspect::inspect(
+                &stamp.masks,
+                unmended.as_ref(),
+                &planned.plan,
+                limits,
+                &held,
+                &mut within,
+            );
             Ok(ModelPrintability {
                 model: model.model,
                 turn_deg: model.turns * TURN_DEG,

@@ -198,6 +198,19 @@ pub(super) struct CuredRange {
 }
 
 impl CuredRange {
+    /// Returns true if no other layer of the range could be its first, and this one cures too deep: down to `bottom_mm`.
+    pub fn is_thin(&self, cure: &Cure, bottom_mm: f64) -> bool {
+        let LitRange { first, end, .. } = self.lit;
+        let half_mm = 0.5 * cure.thickness_mm(first);
+        self.is_raised && first + 1 == end && bottom_mm - self.z_mm < -half_mm
+    }
+
+    /// Returns true if it cures down to the range below.
+    pub fn closes_gap(&self, cure: &Cure, bottom_mm: f64) -> bool {
+        let reaches = |below| bottom_mm <= cure.boundary_mm(below);
+        self.is_raised && self.below.is_some_and(reaches)
+    }
+
     /// A range without compensation, and the one below.
     #[inline]
     fn new(it: Lit, below: Option<Lit>, parts: u32) -> Self {

@@ -4,11 +4,14 @@ use std::ops::Range;
 
 use serde::Serialize;
 
-use super::Samples;
-use super::entries::{Column, CuredRange, Entries, Raise};
+use super::entries::{Column, CuredRange, Entries, LitRanges, Raise};
 use super::samples::SublayerOf;
+use super::window::Place;
+use super::{Masks, Samples, Side, of_rays};
 use crate::cure::{Cure, Light, LitRange};
-use crate::ldi::RayRows;
+use crate::grid::Grid;
+use crate::ldi::{Hit, RayRows};
+use crate::model::FacetClasses;
 use crate::parallel;
 use crate::plan::Plan;
 use crate::progress::{Cancelled, Progress};
@@ -152,9 +155,10 @@ pub(crate) fn print_through(
             for (ray, hits) in held.rays().each().enumerate() {
                 let ray = rows.start * width + ray;
                 let mut lights = Lights::default();
-                entries.each_cured(cure, hits, image.classes, &mut ranges, |range| {
+                let mut pass = |range: &CuredRange| {
                     lights.pass(ray, range, cure, others, tolerance_mm, &mut tally);
-                });
+                };
+                each_range(&entries, cure, hits, image.classes, &mut ranges, &mut pass);
             }
             tally
         },
@@ -280,6 +284,104 @@ impl PrintThroughReport {
     }
 }
 
+/// Kinds of places that compensation cannot mend.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+enum Unmended {
+    /// The layer of a thin roof.
+    Roof,
+    /// The dark layers of a gap that closes.
+    Gap,
+}
+
+/// These places along rays.
+struct UnmendedRanges<'a> {
+    kind: Unmended,
+    entries: &'a Entries<'a>,
+    cure: &'a Cure,
+}
+
+impl LitRanges for UnmendedRanges<'_> {
+    fn of_ray(
+        &self,
+        hits: &[Hit],
+        classes: FacetClasses,
+        column: &mut Column,
+        mut emit: impl FnMut(u32, u32),
+    ) {
+        let (cure, parts) = (self.cure, self.entries.parts);
+        let mut light = None;
+        let mut pass = |range: &CuredRange| {
+            let first = range.lit.first;
+            if first >= range.lit.end {
+                return;
+            }
+            let bottom_mm = cure.bottom_mm(range.lit, light);
+            let layers = match (self.kind, range.below) {
+                (Unmended::Roof, _) if range.is_thin(cure, bottom_mm) => first..first + 1,
+                // A gap within one layer is in the one below the roof's.
+                (Unmended::Gap, Some(below)) if range.closes_gap(cure, bottom_mm) => {
+                    below.min(first - 1)..first
+                }
+                _ => 0..0,
+            };
+            emit(layers.start as u32 * parts, layers.end as u32 * parts);
+            if let Some(end) = range.below {
+                light = cure.light_below(range.lit, light, end);
+            }
+        };
+        each_range(self.entries, cure, hits, classes, column, &mut pass);
+    }
+}
+
+/// [`Entries::each_cured`], compiled once for those that need not be as quick as masks.
+fn each_range(
+    entries: &Entries<'_>,
+    cure: &Cure,
+    hits: &[Hit],
+    classes: FacetClasses,
+    column: &mut Column,
+    emit: &mut dyn FnMut(&CuredRange),
+) {
+    entries.each_cured(cure, hits, classes, column, emit);
+}
+
+impl Masks {
+    /// The places that compensation for a cure cannot mend, as masks of their own: roofs so thin that their last layer alone cures too
+    /// deep, and gaps that light through their roof closes. `None` if masks make up for a constant distance.
+    ///
+    /// Cost: twice linear in hits.
+    pub(crate) fn unmended(
+        image: &RayRows<'_>,
+        plan: &Plan,
+        grid: &Grid,
+        samples: Samples,
+        raise: &Raise,
+    ) -> Option<[Self; 2]> {
+        let Raise::Cured { cure, .. } = raise else {
+            return None;
+        };
+        let sublayer_of = SublayerOf::new(plan, samples.sublayers);
+        let entries = Entries {
+            sublayer_of: &sublayer_of,
+            parts: samples.sublayers,
+            raise,
+        };
+        let place = Place::new(&image.grid, grid, samples, Side::Above);
+        Some([Unmended::Roof, Unmended::Gap].map(|kind| {
+            let ranges = UnmendedRanges {
+                kind,
+                entries: &entries,
+                cure,
+            };
+            Self::of_bands(plan.layers(), grid, samples, &place, |rows, changes| {
+                of_rays(image, samples, &place, &ranges, rows, |change| {
+                    changes.push(change);
+                });
+            })
+        }))
+    }
+}
+
 /// Light on its way down a ray, under each cure.
 #[derive(Default)]
 struct Lights {
@@ -316,7 +418,7 @@ impl Lights {
             if error_mm.abs() > tolerance_mm.unwrap_or(half_mm) {
                 tally.off[range.unraised_layer] += 1;
             }
-            if first + 1 == end && error_mm < -half_mm {
+            if range.is_thin(cure, bottom_mm) {
                 tally.thin += 1;
                 tally.thin_at = tally.thin_at.or(Some((ray, z_mm)));
                 tally.thin_mm = tally.thin_mm.max(-error_mm);
@@ -327,10 +429,7 @@ impl Lights {
                     note(sums, other.bottom_mm(lit, *light) - z_mm);
                 }
             }
-            if range
-                .below
-                .is_some_and(|below| bottom_mm <= cure.boundary_mm(below))
-            {
+            if range.closes_gap(cure, bottom_mm) {
                 tally.closed += 1;
                 tally.closed_at = tally.closed_at.or(Some((ray, bottom_mm)));
             }

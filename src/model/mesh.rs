@@ -307,31 +307,29 @@ impl Mesh {
             let [a, b, c] = corners.map(|vertex| self.vertices[vertex as usize].as_dvec3());
             (corners, (b - a).cross(c - a))
         });
-        let mut outward: FxHashMap<u32, DVec2> = FxHashMap::default();
+        // The way outward of each vertex, and how much farther it moves than its sides, as corners do.
+        let mut moves: FxHashMap<u32, (DVec2, f64)> = FxHashMap::default();
         for (corners, normal) in normals.clone() {
             for &vertex in corners {
-                *outward.entry(vertex).or_default() += normal.truncate();
+                moves.entry(vertex).or_insert((DVec2::ZERO, 1.0)).0 += normal.truncate();
             }
         }
-        // A corner moves farther than the sides that meet there.
-        let mut farther: FxHashMap<u32, f64> = FxHashMap::default();
         for (corners, normal) in normals {
             let side = normal.truncate();
             if 2.0 * side.length() <= normal.length() {
                 continue;
             }
             for vertex in corners {
-                let along = side.normalize_or_zero();
-                let along = along.dot(outward[vertex].normalize_or_zero());
-                let farther = farther.entry(*vertex).or_insert(1.0);
-                *farther = farther.max(1.0 / along.max(0.5));
+                if let Some((outward, farther)) = moves.get_mut(vertex) {
+                    let along = side.normalize_or_zero().dot(outward.normalize_or_zero());
+                    *farther = farther.max(1.0 / along.max(0.5));
+                }
             }
         }
-        for (vertex, outward) in outward {
-            let by_mm = by_mm * farther.get(&vertex).unwrap_or(&1.0);
-            let by = (outward.normalize_or_zero() * by_mm).extend(0.0);
+        for (vertex, (outward, farther)) in moves {
+            let by = outward.normalize_or_zero() * (by_mm * farther);
             let at = &mut self.vertices[vertex as usize];
-            *at = (at.as_dvec3() + by).as_vec3();
+            *at = (at.as_dvec3() + by.extend(0.0)).as_vec3();
         }
     }
 

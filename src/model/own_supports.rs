@@ -103,7 +103,7 @@ pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
     let rafts: Vec<&Member> = members.iter().filter(|it| is_flat(it)).collect();
     let parts: Vec<usize> = (0..members.len()).filter(|&it| is_thin[it]).collect();
     let bottoms = parts.iter().map(|&it| members[it].min.z);
-    let feet = level(bottoms.filter(|&z| z <= plate + FEET_MM));
+    let feet = level(bottoms.filter(|&z| z <= plate + FEET_MM).collect());
     // On the plate, or on a raft.
     let stands = |it: &Member| {
         let on_raft = |raft: &&Member| {
@@ -160,16 +160,19 @@ pub(super) fn find(mesh: &Mesh) -> Option<OwnSupports> {
 }
 
 /// The lowest of the heights that most others are near.
-fn level(heights: impl Iterator<Item = f64>) -> f64 {
-    let mut heights: Vec<f64> = heights.collect();
-    heights.sort_by(f64::total_cmp);
-    let near = |&from: &f64| {
-        let [first, end] = [from, from + NEAR_MM].map(|z| heights.partition_point(|&it| it < z));
-        end - first
-    };
-    let most = heights.iter().map(near).max();
-    let mut levels = heights.iter().filter(|it| Some(near(it)) == most);
-    levels.next().copied().unwrap_or(f64::INFINITY)
+fn level(mut heights: Vec<f64>) -> f64 {
+    sort_by_number(&mut heights, |&it| it);
+    let (mut most, mut level) = (0, f64::INFINITY);
+    let mut end = 0;
+    for (first, &height) in heights.iter().enumerate() {
+        while heights.get(end).is_some_and(|it| *it <= height + NEAR_MM) {
+            end += 1;
+        }
+        if end - first > most {
+            (most, level) = (end - first, height);
+        }
+    }
+    level
 }
 
 /// Middles of places where members end in the model, without those too wide for tips. Points of a place are close together.

@@ -157,7 +157,7 @@ fn compare(name: &str, triangles: &Triangles) -> Result<usize, Failed> {
     let grid = Grid::plate(&mesh.bounds(), pixels, [pitch_mm; 2])?;
     let ldi = cpu::sample(&mesh, &grid.around_model(&mesh.bounds()), &mut silent)?;
     let masks = Masks::new(&ldi, &plan, &grid, Samples::ONE, Side::Above);
-    let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent)?;
+    let found = inspect(&masks, None, &plan, &limits, &Held::default(), &mut silent)?;
     let mut theirs = by_scipy(&masks, &plan, &limits)?;
     let bodies = theirs.remove("bodies").unwrap_or_default();
     assert_eq!(found.bodies, bodies.len(), "{name}: bodies");

@@ -86,7 +86,7 @@ fn masks_with(
 fn check(triangles: &solids::Triangles, limits: &Limits) -> Printability {
     let plan = layers_of(on_plate(triangles).bounds().size().z);
     let masks = masks_of(triangles, [0.05; 2], &plan, Samples::ONE);
-    inspect(&masks, &plan, limits, &Held::default(), &mut silent).unwrap()
+    inspect(&masks, None, &plan, limits, &Held::default(), &mut silent).unwrap()
 }
 
 /// A box from one corner to the other.

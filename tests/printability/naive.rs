@@ -60,7 +60,7 @@ fn by_brute_force(masks: &Masks, plan: &Plan, limits: &Limits) -> Vec<Found> {
 
 #[track_caller]
 fn compare(name: &str, masks: &Masks, plan: &Plan, limits: &Limits) -> usize {
-    let found = inspect(masks, plan, limits, &Held::default(), &mut silent).unwrap();
+    let found = inspect(masks, None, plan, limits, &Held::default(), &mut silent).unwrap();
     let mut listed = in_whole_numbers(&found, masks, plan);
     let mut expected = by_brute_force(masks, plan, limits);
     for count in &found.counts {
@@ -178,7 +178,7 @@ pub fn random_hollows_have_the_findings_of_brute_force() {
             ..strict()
         };
         compare(&format!("seed {seed}"), &masks, &plan, &limits);
-        let found = inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap();
+        let found = inspect(&masks, None, &plan, &limits, &Held::default(), &mut silent).unwrap();
         drains += super::of_code(&found, Code::NarrowDrain).len();
     }
     assert!(drains > 25, "{drains} narrow drains in all");
@@ -227,7 +227,7 @@ fn what_is_ignored_is_not_found() {
         ..strict()
     };
     let has_overhang = |limits: &Limits| {
-        let found = inspect(&masks, &plan, limits, &Held::default(), &mut silent).unwrap();
+        let found = inspect(&masks, None, &plan, limits, &Held::default(), &mut silent).unwrap();
         found.findings.iter().any(|it| it.code == Code::Overhang)
     };
     assert!(has_overhang(&limits));

@@ -25,7 +25,7 @@ fn check(triangles: &Triangles, margin: [u32; 2]) -> Printability {
         bridge_mm: 1.0,
         ..strict()
     };
-    inspect(&masks, &plan, &limits, &Held::default(), &mut silent).unwrap()
+    inspect(&masks, None, &plan, &limits, &Held::default(), &mut silent).unwrap()
 }
 
 /// Measures that do not depend on places: code, layers, area and volume, sorted.
@@ -120,7 +120,7 @@ fn a_check_can_be_cancelled() {
             std::ops::ControlFlow::Continue(())
         }
     };
-    let found = inspect(&masks, &plan, &strict(), &Held::default(), &mut stop);
+    let found = inspect(&masks, None, &plan, &strict(), &Held::default(), &mut stop);
     assert!(found.is_err());
     assert_eq!(calls, 3);
 }

@@ -255,6 +255,24 @@ impl Planned {
         })
     }
 
+    /// The places of a model, by its index, that compensation for print-through cannot mend, if there are any.
+    pub fn unmended(&self, model: usize) -> Option<[Masks; 2]> {
+        let PrintThroughReport {
+            thin_roofs_mm2,
+            closed_gaps_mm2,
+            ..
+        } = self.print_through.as_ref()?;
+        if *thin_roofs_mm2 == 0.0 && *closed_gaps_mm2 == 0.0 {
+            return None;
+        }
+        let Compensations { raise, .. } = self.compensations.as_ref()?;
+        let sampled = self.models[model].sampled();
+        let (grid, samples) = (&sampled.grid, sampled.sampling.samples);
+        sampled
+            .image()
+            .read(|image| Masks::unmended(image, &self.plan, grid, samples, raise))
+    }
+
     /// Keeps the pieces of a hollow model, by its index, that the solid model would hold.
     ///
     /// # Errors

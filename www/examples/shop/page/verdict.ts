@@ -19,6 +19,8 @@ const SENTENCES: Readonly<Record<Code, string>> = {
   "narrow-gap": "Some gaps are narrow and may close.",
   "small-hole": "Some holes are small and may close.",
   "low-gap": "Some gaps are low and may close.",
+  "thin-roof": "Some roofs are too thin to print at their height.",
+  "closed-gap": "Some gaps will close.",
   "peel-area": "A layer is very large.",
   "peel-jump": "A layer is much larger than the one below.",
   "small-contact": "Little of the model touches the plate.",
