@@ -92,6 +92,34 @@ test("on a plate a finding is marked on each copy that stands alike, and warning
   expect(await places()).toEqual([]);
 });
 
+test("a support is added at the place of a finding, of a model alone and of one on a plate; undo takes it back", async () => {
+  const points = (page: Page): Promise<number[][]> =>
+    page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => element.result?.report.models.at(-1)?.supported?.points.map(({ at_mm }) => at_mm) ?? []);
+  for (const others of [[], [mug]]) {
+    const page = await start("?backend=cpu&printer=mars-4-ultra&rays=512&supports=medium");
+    await drop(page, ...others, { name: "box.stl", bytes: prism(12, 6).bytes });
+    await state(page, "done");
+    // One point at a corner holds little of the box.
+    if (others.length > 0) await page.getByRole("button", { name: "box.stl", exact: true }).click();
+    await page.locator("cusp-workbench").evaluate((element: CuspWorkbench) => (element.query = `${element.query}&points=-5,-5,0,,1`));
+    await settled(page);
+    await openPanel(page, "Check");
+    await page.waitForSelector("cusp-findings [data-verdict]");
+    await expect.poll(() => points(page)).toEqual([[-5, -5, 0]]);
+    await page.getByRole("button", { name: /^Surfaces of/ }).last().click();
+    await page.getByRole("button", { name: "Add a support here" }).click();
+    await settled(page);
+    await expect.poll(async () => (await points(page)).length).toBe(2);
+    // Both are on the underside.
+    for (const [x = NaN, y = NaN, z = NaN] of await points(page)) {
+      expect(Math.max(Math.abs(x), Math.abs(y))).toBeLessThanOrEqual(6);
+      expect(z).toBeCloseTo(0, 3);
+    }
+    await page.getByRole("button", { name: "Undo" }).first().click();
+    await expect.poll(() => points(page)).toEqual([[-5, -5, 0]]);
+  }
+});
+
 const program = process.env["CUSP"];
 
 /** Runs work in a folder of its own, which is removed afterwards. */

@@ -124,7 +124,7 @@ test("files, links and folders that will not do are refused in words, and the pa
   const alert = page.getByRole("alert");
   await drop(page, { name: "notes.txt", bytes: new TextEncoder().encode("hello") });
   await state(page, "error");
-  expect(await alert.innerText()).toContain("notes.txt is not a model that Cusp reads");
+  expect(await alert.innerText()).toContain("notes.txt could not be opened");
   await drop(page, ballFile);
   await state(page, "done");
   const count = await layers(page);

@@ -11,6 +11,7 @@ export function findingsPanel({ element, session, language, panels }: Facts): Te
   const { checks, settings, plate } = session;
   return html`<cusp-findings
     .checks=${checks}
+    .session=${session}
     .verdict=${checks.last?.verdict ?? null}
     .models=${checks.models}
     .names=${plate.entries.map(({ model }) => model.name)}

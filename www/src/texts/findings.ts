@@ -59,6 +59,7 @@ const FINDINGS = {
     drain: "Drill drain holes",
     hollow: "Hollow the model",
     orient: "Find a better orientation",
+    here: "Add a support here",
   },
   advice: {
     island: "Support it, or turn the model.",
@@ -74,9 +75,9 @@ const FINDINGS = {
     "narrow-gap": "Make it wider, or the model larger.",
     "small-hole": "Make it wider, or the model larger.",
     "low-gap": "Make it higher, or turn the model.",
-    "peel-area": "Turn the model, or hollow it.",
     "thin-roof": "Make it thicker, or turn the model.",
     "closed-gap": "Make it higher, or turn the model.",
+    "peel-area": "Turn the model, or hollow it.",
     "peel-jump": "Turn the model.",
     "small-contact": "Put it on a raft, or turn it.",
   },

@@ -9,7 +9,6 @@ import "./nouns.js";
 export const problemTexts = room("", {
   /** A heading for each kind of failure; the sentence below it is that of the failure's code. */
   headings: {
-    notModel: "{name} is not a model that Cusp reads",
     empty: "{name} is empty",
     cutShort: "{name} is cut short",
     damaged: "{name} is damaged",

@@ -9,7 +9,9 @@ import { elementWith, given, own } from "../../view/properties.js";
 import { define } from "../define.js";
 import type { Checked } from "../state/checked.js";
 import type { Checks } from "../state/checks.js";
-import { fixOf, type Fix } from "../state/fixes.js";
+import { canSupport, fixOf, type Fix } from "../state/fixes.js";
+import { added, pointAt, pointsOf } from "../state/hand-points.js";
+import type { Session } from "../state/session.js";
 import { DEFAULT_SETTINGS, type Settings } from "../state/settings.js";
 import { viewTexts } from "../parts/view-texts.js";
 import { findingsStyles } from "../styles/findings-styles.js";
@@ -18,6 +20,9 @@ import { shown } from "../../api/visible.js";
 
 /** Number of findings per kind that are shown initially; none of those that are notes. */
 const FEW = 3;
+
+/** Distance of a new support point below a finding, whose underside is nearer then than its sides. */
+const BELOW_MM = 0.2;
 
 /** A tick; an exclamation mark; a cross. */
 const SIGNS = {
@@ -34,6 +39,8 @@ type Shown = (typeof SEVERITIES)[number];
 
 const PROPERTIES = {
   checks: given<Checks | null>(null),
+  /** The session whose supports a finding may get. */
+  session: given<Pick<Session, "settings" | "options" | "result" | "isCurrent" | "plate" | "change"> | null>(null),
   /** Verdict of the last check; of an earlier plan unless `isCurrent`. */
   verdict: given<Printability["verdict"] | null>(null),
   /** Findings of that check per model; `names` has the models' names. */
@@ -124,18 +131,20 @@ export class CuspFindings extends elementWith(PROPERTIES) {
   }
 
   /** Findings of a model, under its name if there are several models. */
-  #model({ model, copies_mm, found }: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
+  #model(checked: Checked, place: number, words: FindingsTexts): TemplateResult | typeof nothing {
+    const { model, copies_mm, found } = checked;
     if (found.findings.length === 0) return nothing;
     const name = model === null ? null : shown(this.names[model] ?? "");
     return html`${name === null ? nothing : html`<h4 class="model">${this.language.format.count(copies_mm.length)} × ${name}</h4>`}
     ${found.counts
       .map((count) => ({ count, severity: severityOf(count.code, found.findings) }))
       .toSorted((a, b) => SEVERITIES.indexOf(b.severity) - SEVERITIES.indexOf(a.severity))
-      .map(({ count, severity }) => this.#kind(count, severity, found, `${count.code}-${place}`, words))}`;
+      .map(({ count, severity }) => this.#kind(count, severity, checked, `${count.code}-${place}`, words))}`;
   }
 
-  #kind({ code, found }: Count, severity: Shown, { findings }: Checked["found"], id: string, words: FindingsTexts): TemplateResult {
+  #kind({ code, found }: Count, severity: Shown, checked: Checked, id: string, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
+    const { findings } = checked.found;
     const listed = findings.filter((finding) => finding.code === code);
     const isNote = severity === "note";
     const few = isNote ? 0 : FEW;
@@ -148,7 +157,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
       </h4>
       ${isNote ? nothing : html`<p class="quiet" id="${id}-advice">${words.advice[code]}</p> ${this.#fix(code, id, words)}`}
       <ul>
-        ${shown.map((finding) => this.#item(finding, isNote ? nothing : `${id}-advice`, words))}
+        ${shown.map((finding) => this.#item(finding, checked, isNote ? nothing : `${id}-advice`, words))}
       </ul>
       ${shown.length < listed.length
         ? html`<button class="link" @click=${() => (this.whole = new Set([...this.whole, id]))}>${words.all({ count: format.count(listed.length) })}</button>`
@@ -166,7 +175,7 @@ export class CuspFindings extends elementWith(PROPERTIES) {
     return html`<button class="small fix" aria-describedby=${id} ?disabled=${!this.isCurrent} @click=${ask}>${words.fixes[fix.name]}</button>`;
   }
 
-  #item(finding: Finding, advice: string | typeof nothing, words: FindingsTexts): TemplateResult {
+  #item(finding: Finding, checked: Checked, advice: string | typeof nothing, words: FindingsTexts): TemplateResult {
     const { format } = this.language;
     const { at_mm, layers: [first, last], code } = finding;
     const place = `${at_mm.map((mm) => format.tick(Math.round(mm * 100) / 100)).join(" / ")}\u00a0mm`;
@@ -182,7 +191,25 @@ export class CuspFindings extends elementWith(PROPERTIES) {
         <span>${words.sentences[code](saidOf(finding, format))}</span>
         <span class="quiet figures">${layers} · ${place}</span>
       </button>
+      ${finding === this.chosen ? this.#support(finding, checked, words) : nothing}
     </li>`;
+  }
+
+  /** Button that adds a support at a finding's place on the selected model. */
+  #support({ code, at_mm: [x, y, z] }: Finding, { model, from_mm, turn_deg }: Checked, words: FindingsTexts): TemplateResult | typeof nothing {
+    const { session, settings } = this;
+    if (session === null || !canSupport(code, settings) || turn_deg !== 0 || this.fixed.has("points")) return nothing;
+    const { entries, selected } = session.plate;
+    if (model !== null && model !== selected) return nothing;
+    const add = (): void => {
+      const { options, result, isCurrent } = session;
+      const points = pointsOf("points", { settings, options, result, isCurrent, isAlone: entries.length < 2 });
+      // Points are measured from the model, findings from the plate.
+      const lift_mm = result?.own?.supported?.lift_mm ?? 0;
+      const point = pointAt("points", { at_mm: [x - from_mm[0], y - from_mm[1], z - lift_mm - BELOW_MM], inward: [0, 0, 1] }, null);
+      session.change(added(points, point, settings));
+    };
+    return html`<button class="small fix" ?disabled=${!this.isCurrent} @click=${add}>${words.fixes.here}</button>`;
   }
 
   /** Arrow keys move between findings, and Escape clears the choice. */

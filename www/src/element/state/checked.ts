@@ -6,6 +6,9 @@ import type { Finding, Printability, Report } from "../../api/wire.js";
 export interface Checked {
   /** Index of the model; null for a single model. */
   readonly model: number | null;
+  /** Place of the first of these copies, mm, and their turn. */
+  readonly from_mm: readonly [number, number];
+  readonly turn_deg: number;
   /** Offsets of these copies from the first, mm. */
   readonly copies_mm: readonly (readonly [number, number])[];
   /** Findings at the place of the model; for several copies, of the first. */
@@ -21,7 +24,7 @@ export function checkedOf(check: Check, { plate_count, placements: all }: Report
     const placements = all.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
     const copies_mm = placements.map((it) => [(it.x_mm ?? 0) - x_mm, (it.y_mm ?? 0) - y_mm] as const);
-    return { model: isAlone ? null : model, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
+    return { model: isAlone ? null : model, from_mm: [x_mm, y_mm] as const, turn_deg, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
   });
 }
 

@@ -1,5 +1,5 @@
 import { expect, it } from "vitest";
-import { fixOf } from "./fixes.js";
+import { canSupport, fixOf } from "./fixes.js";
 import { DEFAULT_SETTINGS, type Settings } from "./settings.js";
 
 /** The remedies for a kind, each taken, until there is none or the model is to be turned. */
@@ -20,6 +20,12 @@ it("supports what hangs in the air, more strongly each time, and then turns the 
   for (const code of ["island", "loose-body", "overhang"] as const) expect(walk(code), code).toEqual(["supports", "stronger", "orient"]);
   expect(walk("island", { supports: "light" })).toEqual(["stronger", "stronger", "orient"]);
   expect(walk("small-contact")).toEqual(["supports", "raft", "orient"]);
+});
+
+it("adds a support at a place where there are others", () => {
+  const holds = (code: Parameters<typeof fixOf>[0], change: Partial<Settings>): boolean => canSupport(code, { ...DEFAULT_SETTINGS, ...change });
+  expect((["island", "loose-body", "overhang", "cup", "thin-wall"] as const).filter((code) => holds(code, { supports: "light" }))).toEqual(["island", "loose-body", "overhang"]);
+  expect([holds("island", { supports: "none" }), holds("island", { supports: "light", format: "prusa-3mf" })]).toEqual([false, false]);
 });
 
 it("drains a void, hollows what pulls too much, and leaves to the user what settings cannot change", () => {

@@ -14,6 +14,11 @@ export interface Fix {
 const ORIENT: Fix = { name: "orient", change: null };
 const SUPPORT: Fix = { name: "supports", change: { supports: STRENGTH } };
 
+/** Returns true if a support at the place of a finding is a remedy, beside those that there are. */
+export function canSupport(code: Code, { supports, format }: Settings): boolean {
+  return supports !== "none" && !isFilament(format) && (code === "island" || code === "loose-body" || code === "overhang");
+}
+
 /** The next remedy for findings of a kind; null if only the model itself can be changed. */
 export function fixOf(code: Code, { supports, raft, wall, drain, format }: Settings): Fix | null {
   // Slicers of filament printers make supports and voids themselves.
@@ -36,6 +41,8 @@ export function fixOf(code: Code, { supports, raft, wall, drain, format }: Setti
       return isSolid ? { name: "hollow", change: { wall: WALL } } : ORIENT;
     case "peel-jump":
     case "low-gap":
+    case "thin-roof":
+    case "closed-gap":
       return ORIENT;
     default:
       return null;

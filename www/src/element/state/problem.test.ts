@@ -182,7 +182,7 @@ test.each([
   ["html", "This is a HTML file, which Cusp does not read; download the model itself; the address may need a login, or lead to a page about the model."],
 ] as const)("a file of another kind is named: %s", (kind, text) => {
   const problem = explain(failed("other-file-kind", { kind }), "a", DEFAULT_SETTINGS);
-  expect(problem.title).toBe("a is not a model that Cusp reads");
+  expect(problem.title).toBe("a could not be opened");
   expect(problem.text).toBe(text);
 });
 
