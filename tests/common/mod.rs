@@ -31,6 +31,7 @@ pub fn load(triangles: &[[Vec3; 3]]) -> Slicer {
 }
 
 /// The least memory within which a job can be done.
+#[cfg(not(target_arch = "wasm32"))]
 pub fn least_memory_bytes(triangles: &[[Vec3; 3]], options: &Options) -> u64 {
     let mut slicer = load(triangles).with_memory(1);
     let planned = pollster::block_on(slicer.plan(options, &mut quiet));
