@@ -25,6 +25,8 @@ declare global {
 
 /** Runs before the page's own scripts: records every context that is made. */
 export function watchContexts(): void {
+  // The picture of work that is kept has a context of its own while it is drawn.
+  localStorage.setItem("cusp.work", "off");
   window.contexts = [];
   const { getContext } = HTMLCanvasElement.prototype;
   HTMLCanvasElement.prototype.getContext = function (this: HTMLCanvasElement, ...asked: unknown[]) {
