@@ -173,7 +173,7 @@ impl Default for Severities {
 
 impl Severities {
     /// Looks for pieces that begin with nothing below them, and for nothing else.
-    pub(super) const FLOATING: Self = {
+    const FLOATING: Self = {
         let rest = Severity::Ignore;
         Self {
             island: Severity::Review,
@@ -247,6 +247,14 @@ pub enum LimitsError {
 }
 
 impl Limits {
+    /// The usual limits for pieces that begin with nothing below them, and for nothing else.
+    pub(super) fn of_floating() -> Self {
+        Self {
+            severity: Severities::FLOATING,
+            ..Self::default()
+        }
+    }
+
     /// Severity of a finding of this kind and volume.
     pub(super) fn severity_of(&self, code: Code, volume_mm3: f64) -> Severity {
         let by_volume = match code {

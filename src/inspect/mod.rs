@@ -99,10 +99,7 @@ pub fn floating(
     plan: &Plan,
     progress: &mut Progress<'_>,
 ) -> Result<Vec<Finding>, Cancelled> {
-    let limits = Limits {
-        severity: Severities::FLOATING,
-        ..Limits::default()
-    };
+    let limits = Limits::of_floating();
     let frame = Frame::new(grid, Area::new(window, grid), plan);
     let reader = Reader::new(masks.reader(), Marked::default(), &frame, &limits);
     let mut findings = read(reader, &frame, &limits, &Held::default(), progress)?.findings;

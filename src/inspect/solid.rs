@@ -4,7 +4,7 @@ use super::collect::Frame;
 use super::finding::Finding;
 use super::forest::{Forest, Joining};
 use super::layer::{Marked, Reader};
-use super::limits::{Limits, Severities};
+use super::limits::Limits;
 use super::rows::Area;
 use crate::grid::Grid;
 use crate::mask::{RunSource, Window};
@@ -26,10 +26,7 @@ pub fn retain_held(
     plan: &Plan,
     progress: &mut Progress<'_>,
 ) -> Result<(), Cancelled> {
-    let limits = Limits {
-        severity: Severities::FLOATING,
-        ..Limits::default()
-    };
+    let limits = Limits::of_floating();
     let frame = Frame::new(grid, Area::new(window, grid), plan);
     let mut reader = Reader::new(masks.reader(), Marked::default(), &frame, &limits);
     let mut forest = Forest::new(Joining::Ends);

@@ -86,7 +86,7 @@ pub enum RayImage<'a> {
 #[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
-    /// Where [`Anew`] has no values, this has none either, and its code is not compiled.
+    /// Rays found again. Without values of [`Anew`] its code is not compiled.
     Scanned(Scan<'a>, Anew),
 }
 

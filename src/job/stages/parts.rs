@@ -172,8 +172,8 @@ impl Sampling {
         }
     }
 
-    /// Refuses a model that does not fit the printer as it stands. If copies may turn, refuses it only if it is longer than the plate's
-    /// diagonal: arranging decides about the others.
+    /// Refuses a model that does not fit the printer in its pose. If copies may turn, refuses only models longer than the plate's diagonal:
+    /// arranging decides about the others.
     ///
     /// # Errors
     /// [`GridError`].
