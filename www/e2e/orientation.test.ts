@@ -114,8 +114,13 @@ test("a search fills the sphere and offers three directions; they are applied by
   // The current pose is a card next to them.
   const now = async (): Promise<number> => Number((await panel(page).locator(".now strong").innerText()).replace(/\D/g, ""));
   expect(await now()).toBe(before);
-  // Each says how it differs from the current one.
+  // Each says how it differs from the current one, and all figures are those of the pose under the pointer, or of the current one.
   expect(await poses.nth(0).locator(".differs").count()).toBeGreaterThan(0);
+  expect(Number(await figure(page, "Layers"))).toBe(before);
+  for (const pose of await poses.all()) {
+    await pose.hover();
+    expect(`${await figure(page, "Layers")} layers`).toBe(await pose.locator("strong").innerText());
+  }
 
   const third = poses.nth(2);
   await third.click();
@@ -135,13 +140,13 @@ test("a search fills the sphere and offers three directions; they are applied by
   // By pointing, which shows its metrics, and clicking.
   const { x, y } = await at(page, "Front", 0.5, -0.3);
   await page.mouse.move(x, y);
+  const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");
+  const first = await shown();
   const pointed = Number(await figure(page, "Layers"));
   expect(await figure(page, "Size")).toMatch(/mm$/);
   expect(Number(await figure(page, "Score"))).toBeGreaterThan(0);
   // Another place is another direction.
   const elsewhere = await at(page, "Back", 0.2, 0.1);
-  const shown = (): Promise<string | null> => panel(page).locator("[data-direction]").getAttribute("data-direction");
-  const first = await shown();
   await page.mouse.move(elsewhere.x, elsewhere.y);
   await expect.poll(shown).not.toBe(first);
   await page.mouse.move(x, y);

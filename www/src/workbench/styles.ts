@@ -330,7 +330,7 @@ export const workbenchStyles = css`
   }
   .side .model .button.small {
     margin: 0;
-    padding-inline: 0.5rem;
+    padding-inline: 0.375rem;
     font-size: 0.8125rem;
   }
   .side .model .copies-row .button {

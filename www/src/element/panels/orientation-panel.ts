@@ -45,6 +45,8 @@ const PROPERTIES = {
   language: given(languageOf()),
   /** The candidate under the pointer, or chosen on the sphere. */
   looked: own<Looked | null>(null),
+  /** The candidate whose card is under the pointer or has the focus. */
+  pointed: own<Candidate | null>(null),
   /** True if the code for thumbnails could not be fetched. */
   isUnpictured: own(false),
 };
@@ -74,6 +76,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     if (!changed.has("searched")) return;
     const before = changed.get("searched");
     const { searched } = this;
+    if (before?.best !== searched?.best) this.pointed = null;
     if (before?.best !== searched?.best || before?.now !== searched?.now) void this.#drawThumbnails();
   }
 
@@ -202,19 +205,20 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
     </div>`;
   }
 
-  /** Metrics of the candidate under the pointer, or chosen on the sphere. */
-  #metrics({ options }: Searched): TemplateResult {
-    const { looked, language } = this;
+  /** Metrics of the direction or card under the pointer, or else of the current pose. */
+  #metrics(searched: Searched): TemplateResult {
+    const { looked, pointed, language } = this;
     const words = orientationTexts(language);
-    if (looked === null) {
-      return html`<p class="looked quiet hint"><span class="hovers">${words.point}</span><span class="taps">${words.tap}</span></p>`;
-    }
-    const { candidate, isChosen } = looked;
-    const rows = metricRows(candidate, options?.metric ?? this.metric, language);
-    return html`<div class="looked figures" data-direction=${candidate.direction.join()}>
+    const candidate = looked?.candidate ?? pointed ?? this.#measuredNow(searched);
+    const hint = html`<p class="quiet hint"><span class="hovers">${words.point}</span><span class="taps">${words.tap}</span></p>`;
+    if (candidate === null) return html`<div class="looked">${hint}</div>`;
+    const rows = metricRows(candidate, searched.options?.metric ?? this.metric, language);
+    return html`<div class="looked figures" data-direction=${looked === null ? nothing : candidate.direction.join()}>
+      ${looked === null ? hint : nothing}
+      ${looked === null && pointed === null ? html`<p class="tag">${words.current}</p>` : nothing}
       ${candidate.excluded === null ? nothing : html`<p class="why">${words.why[candidate.excluded]}</p>`}
       <dl>${rows.map(([name, value, help]) => html`<div title=${help ?? nothing}><dt>${name}</dt><dd>${value}</dd></div>`)}</dl>
-      ${isChosen && candidate.excluded === null
+      ${looked?.isChosen === true && candidate.excluded === null
         ? html`<button class="small" @click=${() => this.#orient(candidate)}>${words.apply}</button>`
         : nothing}
     </div>`;
@@ -228,7 +232,7 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="what">
         <span class="tag">${words.now}</span>
-        ${now === null ? html`<span class="quiet">–</span>` : this.#figures(now, searched)}
+        ${now === null ? html`<span class="quiet">–</span>` : this.#cost(now, searched)}
         ${now?.excluded == null ? nothing : html`<span class="why">${words.why[now.excluded]}</span>`}
       </span>
     </div>`;
@@ -236,46 +240,33 @@ export class CuspOrientation extends elementWith(PROPERTIES) {
 
   #choice(candidate: Candidate, place: number, searched: Searched): TemplateResult {
     const { language } = this;
-    const { format } = language;
+    const words = orientationTexts(language);
     const isApplied = isPose(candidate.rotation, this.rotation);
     return html`<button
       class="pose"
       aria-pressed=${isApplied ? "true" : "false"}
       @click=${() => this.#orient(candidate)}
+      @pointerenter=${() => (this.pointed = candidate)}
+      @pointerleave=${() => (this.pointed = null)}
+      @focus=${() => (this.pointed = candidate)}
+      @blur=${() => (this.pointed = null)}
     >
       <canvas width=${PICTURE_PX} height=${PICTURE_PX} aria-hidden="true"></canvas>
       <span class="rank" aria-hidden="true">${place + 1}</span>
-      <span class="visually-hidden">${orientationTexts(language).rank({ rank: format.count(place + 1) })}:</span>
+      <span class="visually-hidden">${words.rank({ rank: language.format.count(place + 1) })}:</span>
       <span class="what">
-        ${this.#figures(
-          candidate,
-          searched,
-          isApplied ? [orientationTexts(language).current] : this.#differences(candidate, searched),
-        )}
+        ${this.#cost(candidate, searched)}
+        ${(isApplied ? [words.current] : this.#differences(candidate, searched)).map((it) => html`<span class="differs">${it}</span>`)}
       </span>
     </button>`;
   }
 
-  /** Figures of a pose: layers and time, then its differences from the current pose. */
-  #figures({ metrics, size_mm }: Candidate, { options }: Searched, differing: readonly string[] = []): TemplateResult {
+  /** Layers and print time of a pose. */
+  #cost({ metrics }: Candidate, { options }: Searched): TemplateResult {
     const { language } = this;
-    const { texts, format } = language;
-    const words = orientationTexts(language);
     if (metrics === null) return html`${nothing}`;
-    const metric = options?.metric ?? this.metric;
-    const of = (term: Term): string => figure(term, metrics, metric, language);
-    return html`<span class="cost"><strong>${of("layers")} ${texts.plan.layers({ count: metrics.layers })}</strong> <span>${of("time")}</span></span>
-      ${differing.map((it) => html`<span class="differs">${it}</span>`)}
-      <span class="rest quiet">
-        <span>${texts.metrics[metric].head} ${of("error")}</span>
-        <span title=${words.roughnessHelp}>${words.roughness} ${of("roughness")}</span>
-        <span title=${words.overhangHelp}>${words.overhang} ${of("overhang")}</span>
-        <span title=${words.islandsHelp}>${words.islands} ${of("islands")}</span>
-        <span title=${words.cupsHelp}>${words.cups} ${of("cups")}</span>
-        <span title=${words.supportsHelp}>${words.qualities.supports} ${of("supports")}</span>
-        <span>${words.height} ${format.mm(Math.round(10 * size_mm[2]) / 10)}</span>
-        <span title=${words.contactsHelp}>${words.qualities.contacts} ${of("contacts")}</span>
-      </span>`;
+    const of = (term: Term): string => figure(term, metrics, options?.metric ?? this.metric, language);
+    return html`<span class="cost"><strong>${of("layers")} ${language.texts.plan.layers({ count: metrics.layers })}</strong> <span>${of("time")}</span></span>`;
   }
 
   /** Differences from the current pose in words; empty if that is not measured. */

@@ -259,8 +259,7 @@ export const orientationStyles = css`
     font-size: 0.8125rem;
     font-weight: 650;
   }
-  .cost,
-  .rest {
+  .cost {
     display: flex;
     flex-wrap: wrap;
     gap: 0 0.625rem;
@@ -274,10 +273,18 @@ export const orientationStyles = css`
     color: var(--cusp-text);
     transition: color 1ms;
   }
-  /* On a phone the answer comes first. */
+  /* On a phone and in a column the answer comes first. */
   @container (max-width: 43.99rem) {
     .best:has(.pose) {
       order: -1;
+    }
+    .looked dl {
+      grid-template-columns: 1fr;
+    }
+    .looked dl div {
+      display: flex;
+      justify-content: space-between;
+      gap: 0.5rem;
     }
   }
   @container (min-width: 36rem) {
