@@ -338,6 +338,46 @@ test("the top of a table is coloured by what is under each place of it, and stri
   expect(await marked()).toBe(0);
 });
 
+test("what is found is painted on the surface, and on a plate on its own copy alone", async () => {
+  const page = await start();
+  /** Pixels of the colour of findings in the left and in the right half. */
+  const painted = async (): Promise<[number, number]> => {
+    await drawn(page);
+    const at = await picture(page);
+    const count = [0, 0];
+    for (let x = 0; x < 400; x += 2) {
+      for (let y = 0; y < 400; y += 2) if (likeness(at(x, y), [255, 159, 26]) > 0.98) count[x < 200 ? 0 : 1]!++;
+    }
+    return count as [number, number];
+  };
+  await page.evaluate(async () => {
+    const { harness } = window;
+    harness.show();
+    await harness.set({ positions: harness.solids.box([-5, -5, 0], [5, 5, 10]) });
+  });
+  expect(await painted()).toEqual([0, 0]);
+  // The lower half of a box: half of what is seen of its sides. Outlines alone are a fiftieth of that.
+  const whole = async (high: number): Promise<number> => {
+    await page.evaluate((high) => window.harness.set({ places: [{ at_mm: [0, 0, 0], bounds_mm: [[-5, -5, 0], [5, 5, high]] }] }), high);
+    const [left, right] = await painted();
+    return left + right;
+  };
+  const [lower, all] = [await whole(5), await whole(10)];
+  expect(lower).toBeGreaterThan(1000);
+  expect(lower / all).toBeGreaterThan(0.25);
+  expect(lower / all).toBeLessThan(0.5);
+  // Two copies, of which the left one is selected and the right one marked.
+  await page.evaluate(async () => {
+    const { harness } = window;
+    const shape = { positions: harness.solids.box([-5, -5, 0], [5, 5, 10]), rotation: [0, 0, 0, 1] as const, scale: 1 };
+    const copies = [-10, 10].map((x_mm, place) => ({ place, shape, x_mm, y_mm: 0, turn_deg: 0, isColliding: false, supports: null }));
+    await harness.set({ copies, selected: 0, aligned: true, places: [{ at_mm: [10, 0, 0], bounds_mm: [[5, -5, 0], [15, 5, 10]] }] });
+  });
+  const [left, right] = await painted();
+  expect(left).toBe(0);
+  expect(right).toBeGreaterThan(500);
+});
+
 test("a click lays a face flat", async () => {
   const page = await start();
   await page.evaluate(async () => {

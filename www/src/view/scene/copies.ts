@@ -53,6 +53,8 @@ export class Copies {
   readonly #ofSupports: RawShaderMaterial;
   readonly #posed = new Map<Shape, Posed>();
   readonly #supported = new Map<Float32Array, BufferGeometry>();
+  #isCut = false;
+  #isMarked = false;
 
   /**
    * @param uniforms those of the model, for the same layer and resin colours
@@ -82,9 +84,16 @@ export class Copies {
     this.#bodies.position.z = mm;
   }
 
-  /** @param isCut true if the model's cut applies */
-  setCut(isCut: boolean): void {
-    for (const material of [this.#plain, this.#colliding]) define(material, isCut ? ["CUT"] : []);
+  /** True if the model's cut applies. */
+  set isCut(isCut: boolean) {
+    this.#isCut = isCut;
+    this.#define();
+  }
+
+  /** True if the model's marks are painted. */
+  set isMarked(isMarked: boolean) {
+    this.#isMarked = isMarked;
+    this.#define();
   }
 
   setBad([r, g, b]: Rgb): void {
@@ -131,6 +140,11 @@ export class Copies {
     this.set([], null);
     this.#plain.dispose();
     this.#colliding.dispose();
+  }
+
+  #define(): void {
+    const names = [...(this.#isCut ? ["CUT"] : []), ...(this.#isMarked ? ["MARKED"] : [])];
+    for (const material of [this.#plain, this.#colliding]) define(material, names);
   }
 
   #of(shape: Shape): Posed {

@@ -1,8 +1,8 @@
-/** Boxes that mark places on a model; also visible through the model. */
-import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, Mesh, MeshBasicMaterial } from "three";
+/** Outlines of boxes that mark places on a model; also visible through the model, whose surface in them is painted. */
+import { BoxGeometry, EdgesGeometry, Group, LineBasicMaterial, LineSegments, type Vector3 } from "three";
 import type { Triple } from "./pose.js";
 
-/** A place to mark, in the frame of the posed model: centred on x = y = 0, with the plate at z = 0. Lengths in mm. */
+/** A place to mark, mm from the middle of the plate. */
 export interface Mark {
   readonly at_mm: Triple;
   /** Minimum and maximum corner. */
@@ -15,21 +15,19 @@ export const MARK_COLOUR = 0xff9f1a;
 /** Minimum side of a box, as a fraction of the model's longest side; smaller ones would be invisible. */
 const LEAST = 0.01;
 
+/** Findings are measured in pixels, up to whose width the surface lies beside them. */
+const MARGIN_MM = 0.1;
+
 export function middleOf({ bounds_mm: [low, high] }: Mark): Triple {
   return [(low[0] + high[0]) / 2, (low[1] + high[1]) / 2, (low[2] + high[2]) / 2];
 }
 
 export class Marker {
   readonly group = new Group();
-  readonly #box = new BoxGeometry(1, 1, 1);
-  readonly #edges = new EdgesGeometry(this.#box);
-  readonly #fill = new MeshBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: 0.25, depthTest: false, depthWrite: false });
+  readonly #edges = new EdgesGeometry(new BoxGeometry(1, 1, 1));
   readonly #lines: LineBasicMaterial;
-  readonly #isFaint: boolean;
 
-  /** @param isFaint true for outlines alone */
   constructor(isFaint = false) {
-    this.#isFaint = isFaint;
     this.#lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: isFaint ? 0.6 : 1, depthTest: false, depthWrite: false });
   }
 
@@ -38,15 +36,21 @@ export class Marker {
     return this.group.children[0]?.scale.length() ?? 0;
   }
 
+  /** Minimum and maximum corner of each box, with a margin. */
+  get boxes(): readonly (readonly [Vector3, Vector3])[] {
+    return this.group.children.map(({ position, scale }) => {
+      const half = scale.clone().multiplyScalar(0.5).addScalar(MARGIN_MM);
+      return [position.clone().sub(half), position.clone().add(half)];
+    });
+  }
+
   set(marks: readonly Mark[], size_mm: Triple): void {
     const least = LEAST * Math.max(...size_mm);
     const boxes = marks.map((mark) => {
       const [low, high] = mark.bounds_mm;
-      const [fill, lines] = [new Mesh(this.#box, this.#fill), new LineSegments(this.#edges, this.#lines)];
+      const box = new LineSegments(this.#edges, this.#lines);
       // After the model, through which it is visible.
-      fill.renderOrder = 10;
-      lines.renderOrder = 11;
-      const box = new Group().add(...(this.#isFaint ? [lines] : [fill, lines]));
+      box.renderOrder = 10;
       box.position.set(...middleOf(mark));
       box.scale.set(Math.max(least, high[0] - low[0]), Math.max(least, high[1] - low[1]), Math.max(least, high[2] - low[2]));
       return box;
@@ -56,9 +60,7 @@ export class Marker {
   }
 
   dispose(): void {
-    this.#box.dispose();
     this.#edges.dispose();
-    this.#fill.dispose();
     this.#lines.dispose();
   }
 }

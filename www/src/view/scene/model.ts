@@ -22,7 +22,7 @@ import { HEAT_ROW, HEAT_ROW_FACETS, packHeat, type HeatSource } from "../paint/h
 import { packBoundaries, ROW, rowsFor } from "./lookup.js";
 import { PALETTE_SIZE, TABLE, type Rgb } from "../legend/palette.js";
 import { extentOf, sizeOf, standing, type Extent, type Rotation, type Triple } from "./pose.js";
-import { MODEL_FRAGMENT, MODEL_VERTEX, PICK_FRAGMENT, PICK_VERTEX } from "./shaders.js";
+import { MODEL_FRAGMENT, MODEL_VERTEX, MOST_MARKS, PICK_FRAGMENT, PICK_VERTEX } from "./shaders.js";
 import { isMeasured } from "../steps/distances.js";
 import type { Steps } from "../steps/steps.js";
 import { WallColours } from "../walls/colours.js";
@@ -111,6 +111,7 @@ export class Model {
   #hasVoids = false;
   readonly wallColours = new WallColours();
   #isSeenThrough = false;
+  #isMarked = false;
   readonly #material: RawShaderMaterial;
   /** Depth pass, which limits a transparent model to its nearest facets. */
   readonly #depth: Mesh<BufferGeometry, RawShaderMaterial>;
@@ -134,6 +135,9 @@ export class Model {
         band: { value: new Vector2(...NO_BAND) },
         opacity: { value: 1 },
         cut: this.cut,
+        marks: { value: 0 },
+        markLow: { value: Array.from({ length: MOST_MARKS }, () => new Vector3()) },
+        markHigh: { value: Array.from({ length: MOST_MARKS }, () => new Vector3()) },
         ...this.wallColours.uniforms,
       },
     });
@@ -291,6 +295,19 @@ export class Model {
     this.#show();
   }
 
+  /** Paints what is within these boxes, in the frame of the scene. */
+  setMarked(boxes: readonly (readonly [Vector3, Vector3])[]): void {
+    const { marks, markLow, markHigh } = this.#material.uniforms;
+    const count = Math.min(boxes.length, MOST_MARKS);
+    if (marks !== undefined) marks.value = count;
+    for (const [i, [low, high]] of boxes.slice(0, count).entries()) {
+      (markLow?.value as Vector3[])[i]?.copy(low);
+      (markHigh?.value as Vector3[])[i]?.copy(high);
+    }
+    this.#isMarked = count > 0;
+    this.#show();
+  }
+
   setLook(look: Look): void {
     this.#look = look;
     this.#show();
@@ -364,7 +381,7 @@ export class Model {
           : this.#look === "walls" && this.#hasWalls
             ? ["BY_WALLS"]
             : [];
-    define(this.#material, this.#isCut ? [...look, "CUT"] : look);
+    define(this.#material, [...look, ...(this.#isCut ? ["CUT"] : []), ...(this.#isMarked ? ["MARKED"] : [])]);
   }
 
   get #isCut(): boolean {

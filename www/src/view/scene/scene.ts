@@ -123,8 +123,8 @@ export class Scene {
     this.copies = new Copies(this.model.material.uniforms, this.model.supports.material);
     this.#face.frustumCulled = false;
     this.model.facets.add(this.#face);
-    this.model.stand.add(this.#marker.group, this.#places.group, this.markers.group);
-    this.#scene.add(this.model.stand, this.copies.group, this.plate.group, this.#selection.group);
+    this.model.stand.add(this.markers.group);
+    this.#scene.add(this.model.stand, this.#marker.group, this.#places.group, this.copies.group, this.plate.group, this.#selection.group);
     this.#gizmo = new Gizmo(this.cameras.current, canvas, this.#scene, {
       ...reports,
       held: (on) => {
@@ -222,7 +222,7 @@ export class Scene {
   /** Cuts everything off above a height, mm; null: nothing. */
   setCut(cut_mm: number | null): void {
     this.model.setCut(cut_mm);
-    this.copies.setCut(cut_mm !== null);
+    this.copies.isCut = cut_mm !== null;
   }
 
   setVolume(volume: BuildVolume | null): void {
@@ -265,6 +265,7 @@ export class Scene {
   /** Marks places and turns the first to the viewer. An empty list moves the camera back, unless the user has moved it since. */
   setMarks(marks: readonly Mark[], duration_ms: number): void {
     this.#marker.set(marks, this.model.size_mm);
+    this.#paintMarks();
     const isAligned = this.align() !== null;
     const [first] = marks;
     if (first === undefined) this.cameras.withdraw(duration_ms);
@@ -275,7 +276,15 @@ export class Scene {
   /** Outlines these places. */
   setPlaces(places: readonly Mark[]): void {
     this.#places.set(places, this.model.size_mm);
+    this.#paintMarks();
     this.invalidate();
+  }
+
+  /** Paints the surface at all places; the chosen ones come first. */
+  #paintMarks(): void {
+    const boxes = [...this.#marker.boxes, ...this.#places.boxes];
+    this.model.setMarked(boxes);
+    this.copies.isMarked = boxes.length > 0;
   }
 
   /** Highlights these facets; null: none. */

@@ -1,11 +1,15 @@
 /** Shaders. Heights are world z, mm; colours are sRGB and lit in linear light. */
 import { HEAT_GLSL } from "../paint/heat.js";
 import { LAYER_AT_GLSL } from "./lookup.js";
+import { MARK_COLOUR } from "./marker.js";
 import { PALETTE_SIZE } from "../legend/palette.js";
 import { WALLS_GLSL } from "../walls/colours.js";
 
 /** Colour of the section of a model that is cut, which is in no scale. */
 const SECTION = [0.95, 0.96, 0.98] as const;
+
+/** Maximum number of boxes whose surface is painted: each pixel is compared with all. */
+export const MOST_MARKS = 32;
 
 const vec3 = (parts: readonly number[]): string => `vec3(${parts.join(", ")})`;
 
@@ -58,7 +62,7 @@ void main() {
  * Shows resin, or layers: a pixel has the mean thickness of the layers that it covers, as in the chart. Layers thinner than a pixel
  * therefore blend instead of flickering, and the shader looks up only boundaries.
  *
- * With `BY_HEAT`, `BY_DISTANCE` or `BY_WALLS` defined, it shows that instead. They are separate variants because software WebGL runs every
+ * With `BY_HEAT`, `BY_DISTANCE` or `BY_WALLS` defined, it shows that instead; with `MARKED`, what is in a box is painted. They are separate variants because software WebGL runs every
  * branch for every pixel.
  */
 export const MODEL_FRAGMENT = /* glsl */ `${HEAD}
@@ -156,6 +160,19 @@ vec3 base(float width, float upwards) {
 }
 #endif
 
+#ifdef MARKED
+uniform int marks;
+uniform vec3 markLow[${MOST_MARKS}];
+uniform vec3 markHigh[${MOST_MARKS}];
+
+bool isMarked() {
+  for (int i = 0; i < marks; i++) {
+    if (all(greaterThanEqual(world, markLow[i])) && all(lessThanEqual(world, markHigh[i]))) return true;
+  }
+  return false;
+}
+#endif
+
 void main() {
 #ifdef CUT
   if (world.z > cut) discard;
@@ -174,7 +191,11 @@ void main() {
   float width = fwidth(world.z);
   vec3 normal = normalize(cross(dFdx(eye), dFdy(eye)));
   float upwards = dot(normal, viewMatrix[2].xyz);
-  vec3 light = lit(base(width, upwards), normal);
+  vec3 own = base(width, upwards);
+#ifdef MARKED
+  if (isMarked()) own = mix(own, linear(${vec3([16, 8, 0].map((bits) => ((MARK_COLOUR >> bits) & 255) / 255))}), 0.8);
+#endif
+  vec3 light = lit(own, normal);
   vec3 shown = encoded(light);
   if (band.y > band.x) {
     // The selected layer: at least three pixels high, and dark with a light edge to stand out anywhere.
