@@ -96,6 +96,8 @@ fn the_document_on_printability_names_the_defaults_of_the_library() {
     assert_says(row(PRINTABILITY, "`note_mm3`"), &volumes_mm3);
     let volume_ml = format!("| {} |", limits.note_ml);
     assert_says(row(PRINTABILITY, "`note_ml`"), &volume_ml);
+    let area_mm2 = format!("| {} |", limits.note_mm2);
+    assert_says(row(PRINTABILITY, "`note_mm2`"), &area_mm2);
     for code in Code::ALL {
         assert_says(
             PRINTABILITY,

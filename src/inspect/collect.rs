@@ -155,7 +155,7 @@ impl<'a> Collector<'a> {
         if !self.limits.looks_for(finding.code) {
             return;
         }
-        let severity = self.limits.severity_of(finding.code, finding.volume_mm3);
+        let severity = self.limits.severity_of(&finding);
         let kind = &mut self.kinds[finding.code as usize];
         kind.found += 1;
         kind.largest.push(Finding {

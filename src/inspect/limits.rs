@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::finding::Code;
+use super::finding::{Code, Finding};
 
 /// Severity of a finding.
 #[derive(Debug, Clone, Copy, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
@@ -68,6 +68,9 @@ pub struct Limits {
     pub reject_mm3: f64,
     /// Traps, cups and hollows with narrow drains below this volume are notes, in millilitres: a drop.
     pub note_ml: f64,
+    /// Thin floors and low gaps below this area are notes, in mm², as are walls, gaps and holes of less than this area times their
+    /// limit: tips and edges of every model.
+    pub note_mm2: f64,
     /// The severity of each kind of finding, at most: those with a volume have a lower one where it is small.
     pub severity: Severities,
 }
@@ -96,6 +99,7 @@ impl Default for Limits {
             note_mm3: 0.5,
             reject_mm3: 10.0,
             note_ml: 0.05,
+            note_mm2: 0.25,
             severity: Severities::default(),
         }
     }
@@ -255,17 +259,30 @@ impl Limits {
         }
     }
 
-    /// Severity of a finding of this kind and volume.
-    pub(super) fn severity_of(&self, code: Code, volume_mm3: f64) -> Severity {
-        let by_volume = match code {
-            Code::Island | Code::LooseBody if volume_mm3 < self.note_mm3 => Severity::Note,
-            Code::Island | Code::LooseBody if volume_mm3 < self.reject_mm3 => Severity::Review,
-            Code::Trap | Code::Cup | Code::NarrowDrain if volume_mm3 < self.note_ml * 1e3 => {
-                Severity::Note
+    /// Severity of a finding by its kind and size.
+    pub(super) fn severity_of(&self, finding: &Finding) -> Severity {
+        let Finding {
+            code,
+            area_mm2,
+            volume_mm3,
+            limit,
+            ..
+        } = *finding;
+        let is_small = match code {
+            Code::Island | Code::LooseBody => volume_mm3 < self.note_mm3,
+            Code::Trap | Code::Cup | Code::NarrowDrain => volume_mm3 < self.note_ml * 1e3,
+            Code::ThinFloor | Code::LowGap => area_mm2 < self.note_mm2,
+            Code::ThinWall | Code::NarrowGap | Code::SmallHole => {
+                volume_mm3 < self.note_mm2 * limit
             }
+            _ => false,
+        };
+        let by_size = match code {
+            _ if is_small => Severity::Note,
+            Code::Island | Code::LooseBody if volume_mm3 < self.reject_mm3 => Severity::Review,
             _ => Severity::Reject,
         };
-        by_volume.min(self.severity.of(code))
+        by_size.min(self.severity.of(code))
     }
 
     /// Returns true if findings of a kind matter at all.
@@ -299,6 +316,7 @@ impl Limits {
             ("note_mm3", Some(self.note_mm3)),
             ("reject_mm3", Some(self.reject_mm3)),
             ("note_ml", Some(self.note_ml)),
+            ("note_mm2", Some(self.note_mm2)),
         ];
         let slope = (
             "self_supporting_slope",

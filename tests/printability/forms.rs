@@ -481,7 +481,7 @@ fn severities_decide_the_verdict() {
 }
 
 #[test]
-fn a_severity_follows_the_volume() {
+fn a_severity_follows_the_size() {
     let severity = |triangles: &Triangles, code, limits: &Limits| {
         let found = check(triangles, limits);
         let [finding] = of_code(&found, code)[..] else {
@@ -529,5 +529,23 @@ fn a_severity_follows_the_volume() {
     };
     for (side, expected) in [(3.0, Severity::Note), (4.0, Severity::Reject)] {
         assert_eq!(severity(&bubble(side), Code::Trap, &strict()).0, expected);
+    }
+    // Floors and fins of 0.16 and of 0.64 mm², 0.2 mm thick.
+    let flake = |side: f32| block([0.0; 3], [side, side, 0.2]);
+    let fin = |side: f32| {
+        joined([
+            slab(0.0, 1.0),
+            block([4.0, 4.0, 1.0], [4.2, 4.0 + side, 1.0 + side]),
+        ])
+    };
+    for (side, expected) in [(0.4, Severity::Note), (0.8, Severity::Review)] {
+        assert_eq!(
+            severity(&flake(side), Code::ThinFloor, &Limits::default()).0,
+            expected
+        );
+        assert_eq!(
+            severity(&fin(side), Code::ThinWall, &Limits::default()).0,
+            expected
+        );
     }
 }

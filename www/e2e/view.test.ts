@@ -344,11 +344,11 @@ test("what is found is painted on the surface, and on a plate on its own copy al
   const painted = async (): Promise<[number, number]> => {
     await drawn(page);
     const at = await picture(page);
-    const count = [0, 0];
+    const count: [number, number] = [0, 0];
     for (let x = 0; x < 400; x += 2) {
-      for (let y = 0; y < 400; y += 2) if (likeness(at(x, y), [255, 159, 26]) > 0.98) count[x < 200 ? 0 : 1]!++;
+      for (let y = 0; y < 400; y += 2) if (likeness(at(x, y), [255, 159, 26]) > 0.98) count[x < 200 ? 0 : 1]++;
     }
-    return count as [number, number];
+    return count;
   };
   await page.evaluate(async () => {
     const { harness } = window;

@@ -136,8 +136,8 @@ export class Model {
         opacity: { value: 1 },
         cut: this.cut,
         marks: { value: 0 },
-        markLow: { value: Array.from({ length: MOST_MARKS }, () => new Vector3()) },
-        markHigh: { value: Array.from({ length: MOST_MARKS }, () => new Vector3()) },
+        markLow: { value: [] },
+        markHigh: { value: [] },
         ...this.wallColours.uniforms,
       },
     });
@@ -297,14 +297,13 @@ export class Model {
 
   /** Paints what is within these boxes, in the frame of the scene. */
   setMarked(boxes: readonly (readonly [Vector3, Vector3])[]): void {
-    const { marks, markLow, markHigh } = this.#material.uniforms;
-    const count = Math.min(boxes.length, MOST_MARKS);
-    if (marks !== undefined) marks.value = count;
-    for (const [i, [low, high]] of boxes.slice(0, count).entries()) {
-      (markLow?.value as Vector3[])[i]?.copy(low);
-      (markHigh?.value as Vector3[])[i]?.copy(high);
-    }
-    this.#isMarked = count > 0;
+    const all = boxes.slice(0, MOST_MARKS);
+    // The shader's arrays have one length.
+    const filled = (corners: readonly Vector3[]): Vector3[] => Array.from({ length: MOST_MARKS }, (_, i) => corners[i] ?? new Vector3());
+    this.#set("marks", all.length);
+    this.#set("markLow", filled(all.map(([low]) => low)));
+    this.#set("markHigh", filled(all.map(([, high]) => high)));
+    this.#isMarked = all.length > 0;
     this.#show();
   }
 
