@@ -22,6 +22,8 @@ pub struct Held {
     pub joints_mm: Vec<[f64; 3]>,
     /// Distance from a joint within which gaps are those between its branches.
     pub joint_reach_mm: f64,
+    /// Pull of the film against which they hold, at a disc of 20 mm, in kPa; the usual one if absent.
+    pub film_kpa: Option<f64>,
 }
 
 /// Cylinders around points, in pixels.

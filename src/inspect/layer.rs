@@ -11,6 +11,7 @@ use super::holes;
 use super::hollows::{GapLinks, Gaps};
 use super::limits::Limits;
 use super::overhang;
+use super::peel;
 use super::rows::{Disc, Rows, Span};
 use super::thickness::Thickness;
 use crate::mask::{LayerRuns, RunReader};
@@ -40,6 +41,8 @@ pub(super) struct Layer {
     pub width: Disc,
     /// Pixels that would be unsupported if all of the layer below were supported.
     pub flat: Rows,
+    /// Pull of a film of 1 kPa, in newtons.
+    pub pull: f64,
     pub thin: Thin,
 }
 
@@ -163,6 +166,7 @@ impl Checks<'_> {
             contacts,
             width,
             flat,
+            pull: peel::pull(lit, self.frame.grid),
             thin,
         }
     }

@@ -11,6 +11,7 @@ use super::limits::Limits;
 use super::overhang::Overhangs;
 use super::peel::{Peel, Peeling};
 use super::regions::Regions;
+use crate::prepare::FILM_KPA;
 
 /// The checks of the layers so far.
 pub(super) struct Sweep<'a> {
@@ -58,7 +59,7 @@ impl<'a> Sweep<'a> {
             low_gaps: regions(Code::LowGap, limits.low_gap_mm, 0.0),
             roofs: of_print_through(Code::ThinRoof),
             closed_gaps: of_print_through(Code::ClosedGap),
-            peeling: Peeling::new(frame, limits),
+            peeling: Peeling::new(frame, limits, held.film_kpa.unwrap_or(FILM_KPA)),
         }
     }
 
@@ -91,7 +92,7 @@ impl<'a> Sweep<'a> {
         for (regions, rows) in regions {
             regions.advance(number, rows, frame, collector);
         }
-        self.peeling.advance(&layer.alone.lit.patches);
+        self.peeling.advance(&layer.alone.lit.patches, layer.pull);
     }
 
     /// The number of bodies, and the areas to be peeled off.

@@ -12,7 +12,7 @@ use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress};
 use super::{Error, Job, Report};
 use crate::arrange::{self, ArrangeError, TURN_DEG};
-use crate::inspect::{self, Finding, Limits, Printability, Verdict};
+use crate::inspect::{self, Finding, Held, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
 use crate::model::{FacetClass, Mesh};
 use crate::plan::Plan;
@@ -250,12 +250,16 @@ impl Job {
         limits.check()?;
         let current = self.plate_mut(plate)?;
         let planned = Arc::clone(&current.planned);
+        let film_kpa = current.output.printer.as_ref().and_then(|it| it.film_kpa);
         let (masks, _) = current.seen()?;
         let count = planned.models.len() as f64;
         let all = planned.models.iter().zip(&masks.stamps).enumerate();
         let found = all.map(|(place, (model, stamp))| {
             let mut within = |fraction| progress(Stage::Inspect, (place as f64 + fraction) / count);
-            let held = model.sampled().held(limits);
+            let held = Held {
+                film_kpa,
+                ..model.sampled().held(limits)
+            };
             let unmended = planned.unmended(place);
             let found = inspect::inspect(
                 &stamp.masks,

@@ -28,7 +28,7 @@ pub(crate) use lengths::BadLength;
 pub use pillars::Pillar;
 pub use plug::plugs;
 pub use shell::Shell;
-pub(crate) use support::{LEAST_GAP_MM, MOST_SUPPORT_MM};
+pub(crate) use support::{FILM_KPA, LEAST_GAP_MM, MOST_SUPPORT_MM, peel_n};
 pub use support::{
     SupportLoad, SupportPoint, SupportProfile, SupportStrength, Supporting, Supports, support,
 };

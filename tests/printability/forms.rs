@@ -253,6 +253,30 @@ fn a_table_hangs_over_on_all_sides_as_one() {
     assert_near(found.peel.contact, 0.04, 1e-9);
 }
 
+#[test]
+fn the_film_pulls_by_area_and_perimeter() {
+    // Newtons at 15 kPa: a disc of 20 mm, a square of 10 mm, and two squares as much as both.
+    let newtons = |area_mm2: f64, perimeter_mm: f64| {
+        0.015 * area_mm2 * (2.0 * area_mm2 / perimeter_mm / 10.0).sqrt()
+    };
+    let square = block([20.0, 0.0, 0.0], [30.0, 10.0, 2.0]);
+    let cases = [
+        (solids::cylinder(10.0, 2.0, 32), newtons(314.0, 62.8), 0.01),
+        (square.clone(), newtons(100.0, 40.0), 0.03),
+        (
+            joined([slab(0.0, 2.0), square]),
+            2.0 * newtons(100.0, 40.0),
+            0.03,
+        ),
+    ];
+    for (solid, expected, within) in cases {
+        let pulls = check(&solid, &Limits::default()).peel.pull_n;
+        for pull in pulls {
+            assert_near(pull / expected, 1.0, within);
+        }
+    }
+}
+
 /// A cone that stands on its tip.
 fn funnel(radius: f64, height: f64) -> Triangles {
     let flip = |corner: Vec3| Vec3::new(corner.x, corner.y, -corner.z);

@@ -46,6 +46,10 @@ test("a cup is found, chosen by click or key it is shown and marked, is judged b
   await maskOf(page, finding?.layers[0] ?? -1);
   // Marked in the mask, in the chart, and in the view.
   expect(await page.locator("cusp-mask canvas[data-marked]").count()).toBe(1);
+  expect(await page.locator("cusp-mask canvas").getAttribute("data-places")).toBe("1");
+  // The film pulls at its ring with some tenths of a newton.
+  const pull = page.locator("cusp-mask dl div", { hasText: "Pull of the film" }).locator("dd");
+  expect(Number.parseFloat(await pull.innerText())).toBeGreaterThan(0.1);
   const [band, plot] = await Promise.all([page.locator("cusp-chart .range").boundingBox(), page.locator("cusp-chart .u-over").boundingBox()]);
   // The model is 8 mm high; the hollow begins 1.5 mm above the plate.
   expect((band?.height ?? 0) / (plot?.height ?? 1)).toBeCloseTo(6.5 / 8, 1);

@@ -123,11 +123,12 @@ fn describe(printability: &Printability, report: &Report, show: usize) -> String
         "verdict   {verdict}\n\
          layers    {} of {:.3} mm in total\n\
          bodies    {}\n\
-         peel      at most {:.1} mm², in layer {}; {:.0} % of that on the plate; the largest jump is {:.1} mm², to layer {}",
+         peel      at most {:.1} mm² with {:.1} N, in layer {}; {:.0} % of that on the plate; the largest jump is {:.1} mm², to layer {}",
         report.layers,
         report.height_mm,
         printability.bodies,
         peel.area_mm2[peel.largest_layer],
+        peel.pull_n[peel.largest_layer],
         peel.largest_layer + 1,
         peel.contact * 100.0,
         peel.jump_mm2,

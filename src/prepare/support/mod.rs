@@ -28,6 +28,7 @@ use crate::model::{Bounds, Mesh};
 use crate::progress::{Progress, report};
 use clearance::Clearance;
 use contacts::{Contact, Wishes};
+pub(crate) use loads::peel_n;
 use trees::Trees;
 
 /// Options of supports.
@@ -213,7 +214,7 @@ impl SupportStrength {
 }
 
 /// Pull of the film of a printer that states none: between the 12 and 18 kPa of common films.
-const FILM_KPA: f64 = 15.0;
+pub(crate) const FILM_KPA: f64 = 15.0;
 
 /// A size by its name in the options, and its least value.
 type LeastSize = (&'static str, fn(&SupportProfile) -> f64, f64);

@@ -145,7 +145,9 @@ export function maskPanel({ element, session, language }: Facts, result: Result)
     .below=${session.maskBelow}
     .extent_mm=${session.plate.isSeveral ? null : (result.own?.size_mm ?? null)}
     @cusp-changes=${(event: CustomEvent<boolean>) => (session.seesChanges = event.detail)}
+    .pull_n=${session.checks.pull_n}
     .marks=${session.checks.marks}
+    .places=${session.checks.outlines}
     .report=${result.report}
     .limits=${result.limits}
     .layer=${session.layer}

@@ -11,4 +11,6 @@ export const maskingTexts = room("mask", {
   measure: "Measure between two points",
   exposure: "Exposure",
   area: "Lit area",
+  pull: "Pull of the film",
+  pullHelp: "The force that peels the layer off the film, without the suction of hollows. Known once the plan is checked.",
 });

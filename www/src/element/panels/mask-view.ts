@@ -47,6 +47,8 @@ export interface Layered extends Pick<Report, "layers" | "z_mm" | "thickness_mm"
   exposure_s?: readonly number[];
 }
 
+type Place = Pick<Finding, "bounds_mm" | "layers">;
+
 const PROPERTIES = {
   mask: given<Mask | null>(null),
   /** Mask of the layer below, for the changes; null until known, undefined if the host knows none. */
@@ -56,8 +58,12 @@ const PROPERTIES = {
   report: given<Layered | null>(null),
   limits: given<readonly [number, number]>([0, 0]),
   layer: given(0),
+  /** Pull of the film at each layer, N; empty until known, null if the host never knows it. */
+  pull_n: given<readonly number[] | null>(null),
   /** The chosen finding, in its layers on each copy. */
-  marks: given<readonly Pick<Finding, "bounds_mm" | "layers">[]>([]),
+  marks: given<readonly Place[]>([]),
+  /** Other findings, likewise. */
+  places: given<readonly Place[]>([]),
   language: given(languageOf()),
   place: own(WHOLE),
   playing: own(false),
@@ -183,6 +189,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
         </div>
         ${exposure_s === undefined || Number.isNaN(exposure_s) ? nothing : html`<div><dt>${more.exposure}</dt><dd>${format.measure(exposure_s, "s")}</dd></div>`}
         <div><dt>${more.area}</dt><dd>${this.#area()}</dd></div>
+        ${this.pull_n === null ? nothing : html`<div title=${more.pullHelp}><dt>${more.pull}</dt><dd>${this.#force(this.pull_n)}</dd></div>`}
       </dl>
     `;
   }
@@ -196,7 +203,7 @@ export class CuspMask extends elementWith(PROPERTIES) {
       this.#isFitted = true;
       this.#fit();
     }
-    if ((["mask", "below", "place", "marks", "showsChanges", "ruler"] as const).some((name) => changed.has(name))) this.#paint();
+    if ((["mask", "below", "place", "marks", "places", "showsChanges", "ruler"] as const).some((name) => changed.has(name))) this.#paint();
     if (this.playing && changed.has("mask")) this.#next();
   }
 
@@ -244,21 +251,26 @@ export class CuspMask extends elementWith(PROPERTIES) {
     canvas.dataset["layer"] = String(mask.layer);
   }
 
-  /** Draws boxes around the chosen finding if the painted layer contains it. */
+  /** Draws boxes around the findings that the painted layer contains, a bold one around the chosen finding. */
   #mark(pen: CanvasRenderingContext2D, part: Rectangle, scale: readonly [number, number]): void {
     const { mask, report } = this;
-    const marks = mask === null ? [] : this.marks.filter(({ layers: [first, last] }) => mask.layer >= first && mask.layer <= last);
-    this.#canvas.toggleAttribute("data-marked", marks.length > 0);
     if (mask === null || report === null) return;
+    const isHere = ({ layers: [first, last] }: Place): boolean => mask.layer >= first && mask.layer <= last;
+    const [marks, places] = [this.marks.filter(isHere), this.places.filter(isHere)];
+    this.#canvas.toggleAttribute("data-marked", marks.length > 0);
+    this.#canvas.dataset["places"] = String(places.length);
     const at = (x_mm: number, y_mm: number): Point => screenOf([x_mm, y_mm], mask, report, part, scale);
     const room = MARK_ROOM_PX * devicePixelRatio;
-    for (const { bounds_mm: [[left, front], [right, back]] } of marks) {
+    const outline = ({ bounds_mm: [[left, front], [right, back]] }: Place, colour: string, width: number): void => {
       const [[x0, y0], [x1, y1]] = [at(left, back), at(right, front)];
-      for (const [colour, width] of [["#000", 4], [MARK_COLOUR, 2]] as const) {
-        pen.strokeStyle = colour;
-        pen.lineWidth = width * devicePixelRatio;
-        pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
-      }
+      pen.strokeStyle = colour;
+      pen.lineWidth = width * devicePixelRatio;
+      pen.strokeRect(x0 - room, y0 - room, x1 - x0 + 2 * room, y1 - y0 + 2 * room);
+    };
+    for (const place of places) outline(place, MARK_COLOUR, 1);
+    for (const mark of marks) {
+      outline(mark, "#000", 4);
+      outline(mark, MARK_COLOUR, 2);
     }
   }
 
@@ -290,6 +302,11 @@ export class CuspMask extends elementWith(PROPERTIES) {
     if (mask === null || report === null) return "–";
     const mm2 = this.#lit * report.mask.pitch_mm * report.mask.pitch_y_mm;
     return `${this.language.format.exact(Number(mm2.toPrecision(3)))}\u00a0mm²`;
+  }
+
+  #force(pull_n: readonly number[]): string {
+    const newtons = pull_n[this.layer];
+    return newtons === undefined ? "–" : `${this.language.format.exact(Number(newtons.toPrecision(2)))}\u00a0N`;
   }
 
   readonly #fit = (): void => {

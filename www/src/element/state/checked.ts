@@ -12,7 +12,7 @@ export interface Checked {
   /** Offsets of these copies from the first, mm. */
   readonly copies_mm: readonly (readonly [number, number])[];
   /** Findings at the place of the model; for several copies, of the first. */
-  readonly found: Pick<Printability, "findings" | "counts">;
+  readonly found: Pick<Printability, "findings" | "counts" | "peel">;
 }
 
 type Place = readonly [number, number, number];
@@ -20,11 +20,11 @@ type Place = readonly [number, number, number];
 /** The models of a check, with findings moved to their places on the plate. */
 export function checkedOf(check: Check, { plate_count, placements: all }: Report): readonly Checked[] {
   const isAlone = plate_count === 1 && all.length === 1;
-  return check.models.map(({ model, turn_deg, findings, counts }) => {
+  return check.models.map(({ model, turn_deg, findings, counts, peel }) => {
     const placements = all.filter((it) => it.model === model && (it.turn_deg ?? 0) === turn_deg);
     const { x_mm = 0, y_mm = 0 } = placements[0] ?? {};
     const copies_mm = placements.map((it) => [(it.x_mm ?? 0) - x_mm, (it.y_mm ?? 0) - y_mm] as const);
-    return { model: isAlone ? null : model, from_mm: [x_mm, y_mm] as const, turn_deg, copies_mm, found: { counts, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
+    return { model: isAlone ? null : model, from_mm: [x_mm, y_mm] as const, turn_deg, copies_mm, found: { counts, peel, findings: findings.map((finding) => moved(finding, [x_mm, y_mm])) } };
   });
 }
 
@@ -47,6 +47,12 @@ export function outlinesOf(models: readonly Checked[]): readonly Finding[] {
   return models
     .flatMap(({ copies_mm, found }) => found.findings.filter(({ severity }) => severity === "review" || severity === "reject").flatMap((finding) => copies_mm.map((at_mm) => moved(finding, at_mm))))
     .slice(0, MOST_OUTLINES);
+}
+
+/** Pull of the film at each layer of a plate, N: the sum over all copies. */
+export function pullOf(models: readonly Checked[]): readonly number[] {
+  const layers = models[0]?.found.peel.pull_n.length ?? 0;
+  return Array.from({ length: layers }, (_, layer) => models.reduce((sum, { copies_mm, found }) => sum + copies_mm.length * (found.peel.pull_n[layer] ?? 0), 0));
 }
 
 function moved(finding: Finding, [x_mm, y_mm]: readonly [number, number]): Finding {

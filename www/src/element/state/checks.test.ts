@@ -14,7 +14,7 @@ const finding = (code: Finding["code"], layers: [number, number] = [3, 5]): Find
   ],
 });
 
-const peel = { area_mm2: [], largest_layer: 0, jump_layer: 0, jump_mm2: 0, contact: 1 };
+const peel = { area_mm2: [], pull_n: [0.5, 2], largest_layer: 0, jump_layer: 0, jump_mm2: 0, contact: 1 };
 
 function checkOf(...codes: Finding["code"][]): Check {
   const findings = codes.map((code) => finding(code));
@@ -144,6 +144,8 @@ test("on a plate each model is checked, its findings are where its first copy st
   const [sound, cup] = session.checks.models;
   expect(sound).toMatchObject({ model: 0, copies_mm: [[0, 0]], found: { findings: [] } });
   expect(cup).toMatchObject({ model: 1, copies_mm: [[0, 0], [40, 0]], found: { counts, findings: [{ at_mm: [-20, 5, 1], bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }] } });
+  // Three copies of half a newton and of two.
+  expect(session.checks.pull_n).toEqual([1.5, 6]);
   expect(session.checks.marks).toEqual([]);
   session.checks.choose(cup?.found.findings[0] ?? null);
   expect(session.checks.marks).toMatchObject([{ bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }, { bounds_mm: [[19, 4, 0], [21, 6, 2]] }]);

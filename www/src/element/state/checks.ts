@@ -4,7 +4,7 @@ import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { isEqual } from "./plain.js";
-import { checkedOf, onCopies, outlinesOf, type Checked } from "./checked.js";
+import { checkedOf, onCopies, outlinesOf, pullOf, type Checked } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -26,6 +26,7 @@ interface Subject {
 }
 
 const NO_MARKS: readonly Finding[] = [];
+const NO_PULLS: readonly number[] = [];
 
 export class Checks {
   /** The last check, possibly of an earlier plan. */
@@ -38,8 +39,9 @@ export class Checks {
   #isOpen = false;
   #chosen: Finding | null = null;
   #marks = NO_MARKS;
-  /** Computed when a panel first shows the findings. */
-  #places: readonly Finding[] | null = null;
+  /** Computed when first shown. */
+  #outlines: readonly Finding[] | null = null;
+  #pull_n: readonly number[] | null = null;
   #showsWalls = false;
   #error: SlicerError | null = null;
   /** Input of the last check or of its failure. */
@@ -116,9 +118,19 @@ export class Checks {
     return this.chosen === null ? NO_MARKS : this.#marks;
   }
 
-  /** Findings of the current check that need attention, on each copy; empty unless a panel shows the findings. */
+  /** Findings of the current check that need attention, on each copy. */
+  get outlines(): readonly Finding[] {
+    return this.check === null ? NO_MARKS : (this.#outlines ??= outlinesOf(this.models));
+  }
+
+  /** The same; empty unless a panel shows the findings. */
   get places(): readonly Finding[] {
-    return this.#isOpen && this.check !== null ? (this.#places ??= outlinesOf(this.models)) : NO_MARKS;
+    return this.#isOpen ? this.outlines : NO_MARKS;
+  }
+
+  /** Pull of the film at each layer of the plate shown, N; empty until checked. */
+  get pull_n(): readonly number[] {
+    return this.check === null ? NO_PULLS : (this.#pull_n ??= pullOf(this.models));
   }
 
   /** Chooses a finding of the current check and shows its first layer. The finding already chosen, or null, clears the choice. */
@@ -168,7 +180,7 @@ export class Checks {
     this.#of = of;
     this.last = check;
     this.models = check === null ? [] : checkedOf(check, of.result.report);
-    this.#places = null;
+    this.#outlines = this.#pull_n = null;
     this.#error = error;
     this.#chosen = null;
   }
