@@ -73,8 +73,6 @@ export function formatOf(locale: string, { hours, minutes, separator }: Readonly
     millilitres: (ml: number): string => `${number(ml, { maximumSignificantDigits: 3 })}\u00a0ml`,
     /** A machine time: `7.6 s`. */
     seconds: (value: number): string => `${number(value, { maximumFractionDigits: 1 })}\u00a0s`,
-    /** The area of a section: `123.5 mm²`. */
-    area: (mm2: number): string => `${number(mm2, { maximumFractionDigits: 1 })}\u00a0mm²`,
     /** Print time to the minute, as estimates are no more accurate: `2 h 14 min`. */
     time(seconds: number): string {
       const whole = Math.round(seconds / 60);

@@ -113,10 +113,16 @@ export const plan = {
     off: "Undersides out of tolerance",
     hint: "Click to see a layer. Drag to zoom.",
     touchHint: "Tap to see a layer. Pinch to zoom.",
-    at: "At {height}: {density}",
     /** The thickness of a layer, its height, and the reason. */
     because: "{thickness} at {height}: {reason}",
-    reasons: { level: "the surface is nearly level", sloping: "the surface slopes", steep: "the surface is steep" },
+    reasons: {
+      level: "the surface is nearly level",
+      sloping: "the surface slopes",
+      steep: "the surface is steep",
+      quickly: "the outline changes quickly",
+      slowly: "the outline changes",
+      hardly: "the outline hardly changes",
+    },
     whole: "Whole model",
     heights: "Height (mm)",
     none: "No plan yet",

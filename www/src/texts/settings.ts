@@ -121,7 +121,6 @@ export const settings = {
       subject: "The largest step",
       less: "Smaller steps",
       axis: "Flatness: 0 vertical, 1 horizontal",
-      density: "flatness {value} (1 is horizontal)",
     },
     deviation: {
       name: "Deviation",
@@ -130,7 +129,6 @@ export const settings = {
       subject: "The largest deviation",
       less: "Less deviation",
       axis: "Flatness with edges: 0 vertical, 1 horizontal",
-      density: "flatness {value} (1 is horizontal)",
     },
     "filament-roundness": {
       name: "Filament roundness",
@@ -139,7 +137,6 @@ export const settings = {
       subject: "The largest step",
       less: "Smaller steps",
       axis: "Flatness: 0.184 vertical, 1 horizontal",
-      density: "flatness {value} (1 is horizontal)",
     },
     roughness: {
       name: "Surface roughness",
@@ -148,7 +145,6 @@ export const settings = {
       subject: "The roughness",
       less: "Smoother layers",
       axis: "Roughness: 1 upright, 2 near level",
-      density: "roughness {value} (1 is upright)",
     },
     area: {
       name: "Area deviation",
@@ -157,7 +153,6 @@ export const settings = {
       subject: "The area deviation",
       less: "Less deviation",
       axis: "Change of section per mm",
-      density: "the section changes by {value} per mm",
     },
     volume: {
       name: "Volume deviation",
@@ -166,7 +161,6 @@ export const settings = {
       subject: "The volume deviation",
       less: "Less deviation",
       axis: "Area of the section (mm²)",
-      density: "a section of {value}",
     },
   },
 } as const;

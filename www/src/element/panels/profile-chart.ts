@@ -4,12 +4,10 @@
  */
 import { html, nothing, unsafeCSS, type PropertyValues, type TemplateResult } from "lit";
 import type uPlot from "uplot";
-import type { Metric } from "../../api/wire.js";
 import uplotStyles from "uplot/dist/uPlot.min.css?inline";
-import { chartData, chartOptions, densityEnd, zoomHeights, type ChartData, type ChartTheme, type Heights } from "../parts/chart.js";
+import { chartData, chartOptions, zoomHeights, type ChartData, type ChartTheme, type Heights } from "../parts/chart.js";
 import { languageOf } from "../../texts/index.js";
 import { layerAt } from "../../view/scene/lookup.js";
-import { METRICS } from "../state/metric.js";
 import { ZoomGestures } from "../parts/zoom-gestures.js";
 import { fetched } from "../parts/fetched.js";
 import { partFailure, partStyles, tellPartFailed } from "../parts/part.js";
@@ -31,23 +29,28 @@ const fetchLibrary = fetched(() => import("uplot"));
 const KEY_ZOOM = 1.5;
 /** A zoomed chart spans at least this many layers of maximum thickness. */
 const LEAST_LAYERS = 4;
-/** Fraction of the largest density whose label is as wide as any. */
-const MANY_DIGITS = 0.888;
 /** Number of layers that a page key moves by. */
 const PAGE = 10;
 
 /** Least densities of nearly level and of sloping surfaces: the cosine of their slope. */
-const LEVEL = 0.9;
-const SLOPING = 0.4;
+const SLOPES = [0.9, 0.4] as const;
+/** Least changes of outlines that change quickly, and that change at all, as fractions of the largest change. */
+const CHANGES = [0.5, 0.1] as const;
 
-/** Cosine of the slope of the most level surface that a density of a metric stands for; null for metrics of outlines. */
-function slopeOf(metric: Metric, density: number): number | null {
-  if (metric === "cusp" || metric === "deviation") return density;
-  return metric === "roughness" ? Math.sqrt(Math.max(0, 1 - density ** -2)) : null;
+type Reason = "level" | "sloping" | "steep" | "quickly" | "slowly" | "hardly";
+
+/** Reason for the thickness of layers at a bin: the slope of the most level surface there, or the change of the outline. */
+function reasonOf({ metric, profile }: ChartData, bin: number): Reason {
+  const density = (at: number): number => profile[at] ?? 0;
+  if (metric === "area" || metric === "volume") {
+    // The profile of the volume is the area itself.
+    const change = metric === "area" ? density : (at: number) => Math.abs(density(at + 1) - density(at - 1));
+    const part = change(bin) / (profile.reduce((most, _, at) => Math.max(most, change(at)), 0) || 1);
+    return part >= CHANGES[0] ? "quickly" : part >= CHANGES[1] ? "slowly" : "hardly";
+  }
+  const slope = metric === "roughness" ? Math.sqrt(Math.max(0, 1 - density(bin) ** -2)) : density(bin);
+  return slope >= SLOPES[0] ? "level" : slope >= SLOPES[1] ? "sloping" : "steep";
 }
-
-/** Reason for the thickness of layers. */
-const reasonOf = (slope: number): "level" | "sloping" | "steep" => (slope >= LEVEL ? "level" : slope >= SLOPING ? "sloping" : "steep");
 
 const PROPERTIES = {
   data: given<ChartData | null>(null),
@@ -138,8 +141,8 @@ export class CuspChart extends elementWith(PROPERTIES) {
             <div class="foot figures">
               <p class="mouse ${hovered === null ? "" : "off"}">${words.hint}</p>
               <p class="touch ${hovered === null ? "" : "off"}">${words.touchHint}</p>
-              <p>${hovered === null ? nothing : this.#at(data, hovered, data.profile[hovered] ?? 0)}</p>
-              <p class="off" aria-hidden="true">${this.#at(data, data.profile.length - 1, MANY_DIGITS * densityEnd(data))}</p>
+              <p>${hovered === null ? nothing : this.#at(data, hovered)}</p>
+              <p class="off" aria-hidden="true">${this.#at(data, data.profile.length - 1)}</p>
             </div>`}
     `;
   }
@@ -193,17 +196,14 @@ export class CuspChart extends elementWith(PROPERTIES) {
     return frame;
   }
 
-  /** Density of a bin and its height, as text. */
-  #at({ metric, bin_mm, z_mm, thickness_mm }: ChartData, bin: number, density: number): string {
+  /** Thickness of the layer at a bin, the height, and the reason. */
+  #at(data: ChartData, bin: number): string {
     const { texts, format } = this.language;
-    const slope = slopeOf(metric, density);
-    if (slope !== null) {
-      const height_mm = (bin + 0.5) * bin_mm;
-      const thickness = format.fine(thickness_mm[layerAt(z_mm, height_mm)] ?? 0);
-      return texts.chart.because({ thickness, height: format.height(height_mm), reason: texts.chart.reasons[reasonOf(slope)] });
-    }
-    const value = METRICS[metric].density(density, format);
-    return texts.chart.at({ height: format.height((bin + 0.5) * bin_mm), density: texts.metrics[metric].density({ value }) });
+    const { bin_mm, z_mm, thickness_mm } = data;
+    const height_mm = (bin + 0.5) * bin_mm;
+    const thickness = format.fine(thickness_mm[layerAt(z_mm, height_mm)] ?? 0);
+    const reason = texts.chart.reasons[reasonOf(data, bin)];
+    return texts.chart.because({ thickness, height: format.height(height_mm), reason });
   }
 
   /** Description of the selected layer. */

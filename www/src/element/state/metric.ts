@@ -15,17 +15,15 @@ export interface Measure {
   error(value: number, format: Format): string;
   /** Formats a value of the profile for its axis, without unit. */
   tick(value: number, format: Format): string;
-  /** Formats a value of the profile with its unit. */
-  density(value: number, format: Format): string;
   /** Greatest possible value of a profile; null if it depends on the model. */
   bound: number | null;
 }
 
-type Shown = Pick<Measure, "unit" | "scale" | "tick" | "density">;
+type Shown = Pick<Measure, "unit" | "scale" | "tick">;
 
 const plain = (value: number, format: Format): string => format.tick(value);
 
-const LENGTH: Shown = { unit: "mm", scale: 1, tick: plain, density: plain };
+const LENGTH: Shown = { unit: "mm", scale: 1, tick: plain };
 
 /** Metrics whose errors are no lengths. */
 const OTHERS: Partial<Record<Metric, Partial<Shown>>> = {
@@ -33,9 +31,8 @@ const OTHERS: Partial<Record<Metric, Partial<Shown>>> = {
     unit: "%",
     scale: 100,
     tick: (value, format) => format.percent(value),
-    density: (value, format) => format.percent(value, 1),
   },
-  volume: { unit: "mm³", density: (value, format) => format.area(value) },
+  volume: { unit: "mm³" },
 };
 
 const measures = FACTS.metrics.map(({ name, tolerances: [least, most], greatest_density: bound = null }): [Metric, Measure] => {
