@@ -1,6 +1,7 @@
 import { Matrix4, Mesh, RawShaderMaterial, Ray, Vector3 } from "three";
 import { expect, test } from "vitest";
 import { Copies, matrixOf, sizeOfAll, type Copy, type Shape } from "./copies.js";
+import { box, cone } from "../fixtures.js";
 import { hitBy } from "./moving.js";
 import type { Triple } from "./pose.js";
 
@@ -63,12 +64,24 @@ test("copies are moved and turned with their supports, which have their heights 
   expect(gone).toEqual(["other", "shared"]);
 });
 
-test("a ray meets the nearest copy, also a turned one", () => {
+test("a ray meets the nearest copy, also a turned one; where boxes are behind one another, the surface decides", () => {
+  const all = new Copies({}, new RawShaderMaterial());
+  all.lift_mm = 3;
   const down = (x: number, y: number): Ray => new Ray(new Vector3(x, y, 100), new Vector3(0, 0, -1));
-  const copies = [copy(0, 0, 0), copy(1, 20, 0, 90)];
-  const hit = (x: number, y: number): number | undefined => hitBy(down(x, y), copies, sizeOf)?.copy.place;
+  const block: Shape = { ...shape, positions: box([0, 0, 0], [10, 4, 6]) };
+  const copies = [copy(0, 0, 0), copy(1, 20, 0, 90)].map((it) => ({ ...it, shape: block }));
+  const hit = (x: number, y: number): number | undefined => hitBy(down(x, y), copies, all)?.copy.place;
   expect(hit(4.9, 0)).toBe(0);
   expect(hit(20, 4.9)).toBe(1);
   expect(hit(24.9, 0)).toBeUndefined();
-  expect(hitBy(new Ray(new Vector3(-50, 0, 3), new Vector3(1, 0, 0)), copies, sizeOf)?.point.x).toBeCloseTo(-5, 9);
+  const across = (z: number, of: readonly Copy[]): Vector3 | undefined => hitBy(new Ray(new Vector3(-50, 0, z), new Vector3(1, 0, 0)), of, all)?.point;
+  expect(across(3, copies.slice(0, 1))?.x).toBeCloseTo(-5, 9);
+  // Beside the tip of a cone is the block behind it; through the cone, the cone; below both, what their boxes say.
+  const pointed: Shape = { ...shape, positions: cone(5, 12, 64) };
+  const behind = [{ ...copy(0, 0, 0), shape: pointed }, { ...copy(1, 20, 0), shape: { ...block, scale: 3 } }];
+  expect(across(6, behind)?.x).toBeCloseTo(-3.75, 1);
+  const past = hitBy(new Ray(new Vector3(-50, 4, 14), new Vector3(1, 0, 0)), behind, all);
+  expect([past?.copy.place, past?.point.x]).toEqual([1, expect.closeTo(5, 9)]);
+  expect(across(1, behind)?.x).toBeCloseTo(-5, 1);
+  all.dispose();
 });

@@ -1,5 +1,5 @@
 /** The copies on a plate except the selected one, which is drawn as the model. They share its layer colours. */
-import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, Matrix4, Mesh, Quaternion, RawShaderMaterial, Sphere, Vector3, type IUniform } from "three";
+import { BufferAttribute, BufferGeometry, DoubleSide, GLSL3, Group, Matrix4, Mesh, MeshBasicMaterial, Quaternion, RawShaderMaterial, Raycaster, Sphere, Vector3, type IUniform, type Ray } from "three";
 import type { Rgb } from "../legend/palette.js";
 import { define } from "./model.js";
 import { extentOf, sizeOf, standing, type Rotation, type Triple } from "./pose.js";
@@ -37,6 +37,9 @@ interface Posed {
 }
 
 const UP = new Vector3(0, 0, 1);
+
+/** For rays alone. */
+const BOTH_SIDES = new MeshBasicMaterial({ side: DoubleSide });
 
 /** Turn about z and position of a copy, as a matrix. */
 export function matrixOf({ x_mm, y_mm, turn_deg }: Pick<Copy, "x_mm" | "y_mm" | "turn_deg">): Matrix4 {
@@ -134,6 +137,15 @@ export class Copies {
   sizeOf(shape: Shape): Triple {
     const [x, y, z] = this.#of(shape).size_mm;
     return [x, y, z + this.lift_mm];
+  }
+
+  /** First point of a copy's surface along a ray; null if the ray misses it. Cost: linear in its facets. */
+  pointOn(copy: Copy, ray: Ray): Vector3 | null {
+    const { geometry, matrix } = this.#of(copy.shape);
+    const lift = new Matrix4().makeTranslation(0, 0, this.lift_mm);
+    const mesh = fixed(new Mesh(geometry, BOTH_SIDES), lift.multiply(matrixOf(copy)).multiply(matrix));
+    mesh.updateMatrixWorld(true);
+    return new Raycaster(ray.origin, ray.direction).intersectObject(mesh)[0]?.point ?? null;
   }
 
   dispose(): void {

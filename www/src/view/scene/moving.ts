@@ -1,8 +1,9 @@
 /** Selects copies, and moves the selected ones over the plate, by pointer, handles and keyboard. */
 import { Box3, Matrix4, Plane, Vector3, type Ray } from "three";
-import { matrixOf, type Copy } from "./copies.js";
+import { matrixOf, type Copies, type Copy } from "./copies.js";
 import { watchDrags, type Drags } from "./drags.js";
 import type { Point } from "./pointer.js";
+import type { Triple } from "./pose.js";
 import type { Scene } from "./scene.js";
 
 /** Movement of copies, each with its new placement. */
@@ -103,7 +104,7 @@ export class Moving {
   }
 
   #hit(at: Point): ReturnType<typeof hitBy> {
-    return hitBy(this.#scene.worldRayAt(...at), this.copies, (copy) => this.#scene.copies.sizeOf(copy.shape));
+    return hitBy(this.#scene.worldRayAt(...at), this.copies, this.#scene.copies);
   }
 
   #begin(at: Point, isMore: boolean): boolean {
@@ -145,16 +146,33 @@ export class Moving {
   }
 }
 
-/** Nearest copy whose bounding box a ray meets, with the intersection. */
-export function hitBy(ray: Ray, copies: readonly Copy[], sizeOf: (copy: Copy) => readonly [number, number, number]): { copy: Copy; point: Vector3 } | null {
-  let nearest: { copy: Copy; point: Vector3 } | null = null;
-  for (const copy of copies) {
-    const [x, y, z] = sizeOf(copy);
-    const to = matrixOf(copy);
-    const own = ray.clone().applyMatrix4(new Matrix4().copy(to).invert());
-    const point = own.intersectBox(new Box3(new Vector3(-x / 2, -y / 2, 0), new Vector3(x / 2, y / 2, z)), new Vector3())?.applyMatrix4(to);
-    if (point === undefined) continue;
-    if (nearest === null || point.distanceToSquared(ray.origin) < nearest.point.distanceToSquared(ray.origin)) nearest = { copy, point };
-  }
-  return nearest;
+/**
+ * Nearest copy that a ray meets, with the intersection: by its bounding box, or by its surface where boxes of several are behind one
+ * another.
+ */
+export function hitBy(ray: Ray, copies: readonly Copy[], surfaces: Pick<Copies, "sizeOf" | "pointOn">): Met | null {
+  const boxed = nearestFirst(ray, copies, (copy) => pointOnBox(ray, copy, surfaces.sizeOf(copy.shape)));
+  const [first, second] = boxed;
+  if (first === undefined || second === undefined) return first ?? null;
+  return nearestFirst(ray, boxed.map(({ copy }) => copy), (copy) => surfaces.pointOn(copy, ray))[0] ?? first;
+}
+
+/** Copy that a ray meets, with the intersection. */
+interface Met {
+  readonly copy: Copy;
+  readonly point: Vector3;
+}
+
+function nearestFirst({ origin }: Ray, copies: readonly Copy[], pointOf: (copy: Copy) => Vector3 | null): Met[] {
+  const met = copies.flatMap((copy) => {
+    const point = pointOf(copy);
+    return point === null ? [] : [{ copy, point }];
+  });
+  return met.toSorted((a, b) => a.point.distanceToSquared(origin) - b.point.distanceToSquared(origin));
+}
+
+function pointOnBox(ray: Ray, copy: Copy, [x, y, z]: Triple): Vector3 | null {
+  const to = matrixOf(copy);
+  const own = ray.clone().applyMatrix4(new Matrix4().copy(to).invert());
+  return own.intersectBox(new Box3(new Vector3(-x / 2, -y / 2, 0), new Vector3(x / 2, y / 2, z)), new Vector3())?.applyMatrix4(to) ?? null;
 }
