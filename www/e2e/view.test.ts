@@ -610,6 +610,31 @@ const withoutGl = (): void => {
   });
 };
 
+test("a finger selects a copy, and one that is held adds it", async () => {
+  const page = await start({ hasTouch: true });
+  await page.evaluate(async () => {
+    const { harness } = window;
+    harness.show();
+    const shape = { positions: harness.solids.box([-5, -5, 0], [5, 5, 10]), rotation: [0, 0, 0, 1] as const, scale: 1 };
+    const copies = [-10, 10].map((x_mm, place) => ({ place, shape, x_mm, y_mm: 0, turn_deg: 0, isColliding: false, supports: null }));
+    await harness.set({ positions: shape.positions, copies, selected: 0, chosen: [0], aligned: true });
+  });
+  const session = await page.context().newCDPSession(page);
+  const press = async (held_ms: number): Promise<void> => {
+    const box = await page.locator("canvas").boundingBox();
+    if (box === null) throw new Error("there is no view");
+    const touchPoints = [{ x: box.x + 0.8 * box.width, y: box.y + 0.8 * box.height }];
+    await session.send("Input.dispatchTouchEvent", { type: "touchStart", touchPoints });
+    await page.waitForTimeout(held_ms);
+    await session.send("Input.dispatchTouchEvent", { type: "touchEnd", touchPoints: [] });
+  };
+  const details = async (): Promise<unknown[]> => (await heard(page, "cusp-select")).map(({ detail }) => detail);
+  await press(0);
+  await expect.poll(details).toEqual([{ place: 1, isMore: false }]);
+  await press(700);
+  await expect.poll(details).toEqual([{ place: 1, isMore: false }, { place: 1, isMore: true }]);
+});
+
 test("a finger turns the view freely where the host says that the page does not scroll", async () => {
   const page = await start({ hasTouch: true, viewport: { width: 390, height: 400 } });
   await show(page);

@@ -10,7 +10,7 @@ export interface Heard {
   readonly detail: unknown;
 }
 
-const TYPES = ["cusp-rotate", "cusp-height", "cusp-layer", "cusp-frame", "cusp-view-error"];
+const TYPES = ["cusp-rotate", "cusp-height", "cusp-layer", "cusp-frame", "cusp-select", "cusp-view-error"];
 
 const heard: Heard[] = [];
 customElements.define("cusp-view", CuspView);

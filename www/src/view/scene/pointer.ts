@@ -3,10 +3,13 @@
 /** A pointer that moves farther than this while pressed is dragging, CSS pixels. */
 export const DRAG_FROM_PX = 4;
 
+/** A finger that is held for longer than this does what a click with Shift does, ms. */
+const HELD_MS = 500;
+
 export type Point = readonly [x_px: number, y_px: number];
 
 export interface PointerReports {
-  /** Called on a press and release in one place with the main button; `isMore` with Shift. */
+  /** Called on a press and release in one place with the main button; `isMore` with Shift, or of a finger that was held. */
   clicked(at: Point, isMore: boolean): void;
   /** Called on the same with the secondary button. */
   menu(at: Point): void;
@@ -22,7 +25,7 @@ export function placeIn(surface: HTMLElement, { clientX, clientY }: PointerEvent
 
 /** Watches `surface` until the signal is aborted. */
 export function watchPointer(surface: HTMLElement, reports: PointerReports, signal: AbortSignal): void {
-  let down: { readonly id: number; readonly at: Point } | null = null;
+  let down: { readonly id: number; readonly at: Point; readonly since_ms: number } | null = null;
   let latest: Point | null = null;
   let asked = false;
   const place = (event: PointerEvent): Point => placeIn(surface, event);
@@ -39,7 +42,7 @@ export function watchPointer(surface: HTMLElement, reports: PointerReports, sign
   surface.addEventListener(
     "pointerdown",
     (event) => {
-      down = event.isPrimary && (event.button === 0 || event.button === 2) ? { id: event.pointerId, at: place(event) } : null;
+      down = event.isPrimary && (event.button === 0 || event.button === 2) ? { id: event.pointerId, at: place(event), since_ms: event.timeStamp } : null;
     },
     options,
   );
@@ -58,7 +61,7 @@ export function watchPointer(surface: HTMLElement, reports: PointerReports, sign
       if (down?.id !== event.pointerId) return;
       if (Math.hypot(at[0] - down.at[0], at[1] - down.at[1]) <= DRAG_FROM_PX) {
         if (event.button === 2) reports.menu(at);
-        else reports.clicked(at, event.shiftKey);
+        else reports.clicked(at, event.shiftKey || (event.pointerType === "touch" && event.timeStamp - down.since_ms > HELD_MS));
       }
       down = null;
     },
