@@ -133,9 +133,10 @@ pub(super) fn pull(lit: &Components, grid: &Grid) -> f64 {
     ];
     let mut perimeters_mm = vec![0.0; lit.patches.len()];
     for row in 0..lit.rows.len() {
-        let below = match row + 1 < lit.rows.len() {
-            true => lit.rows.row(row + 1),
-            false => &[],
+        let below: &[Span] = if row + 1 < lit.rows.len() {
+            lit.rows.row(row + 1)
+        } else {
+            &[]
         };
         let mut first = [0; 3];
         for (span, part) in lit.of_row(row) {
