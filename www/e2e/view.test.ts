@@ -366,6 +366,10 @@ test("what is found is painted on the surface, and on a plate on its own copy al
   expect(lower).toBeGreaterThan(1000);
   expect(lower / all).toBeGreaterThan(0.25);
   expect(lower / all).toBeLessThan(0.5);
+  // A hollow is no surface.
+  await page.evaluate(() => window.harness.set({ places: [{ at_mm: [0, 0, 0], bounds_mm: [[-5, -5, 0], [5, 5, 10]], isHollow: true }] }));
+  const hollow = await painted();
+  expect(hollow[0] + hollow[1]).toBeLessThan(0.1 * all);
   // Two copies, of which the left one is selected and the right one marked.
   await page.evaluate(async () => {
     const { harness } = window;

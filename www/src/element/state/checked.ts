@@ -33,19 +33,29 @@ export function kindsOf({ verdict, models }: Check): number {
   return new Set(models.flatMap(({ findings }) => findings.filter(({ severity }) => severity === verdict).map(({ code }) => code))).size;
 }
 
+/** A finding as the view marks it. */
+export interface Outline extends Finding {
+  /** True for a hollow, around which no surface is painted. */
+  readonly isHollow: boolean;
+}
+
+const HOLLOWS: ReadonlySet<Finding["code"]> = new Set(["cup", "trap", "narrow-drain"]);
+
+const outlined = (finding: Finding, place_mm: readonly [number, number]): Outline => ({ ...moved(finding, place_mm), isHollow: HOLLOWS.has(finding.code) });
+
 /** The finding on each copy with the same turn, its own copy first. */
-export function onCopies(finding: Finding, models: readonly Checked[]): readonly Finding[] {
+export function onCopies(finding: Finding, models: readonly Checked[]): readonly Outline[] {
   const copies_mm = models.find(({ found }) => found.findings.includes(finding))?.copies_mm ?? [];
-  return copies_mm.map((place_mm) => moved(finding, place_mm));
+  return copies_mm.map((place_mm) => outlined(finding, place_mm));
 }
 
 /** Maximum number of findings outlined at once; the largest of each kind come first. */
 const MOST_OUTLINES = 200;
 
 /** The findings that need attention, on each copy. */
-export function outlinesOf(models: readonly Checked[]): readonly Finding[] {
+export function outlinesOf(models: readonly Checked[]): readonly Outline[] {
   return models
-    .flatMap(({ copies_mm, found }) => found.findings.filter(({ severity }) => severity === "review" || severity === "reject").flatMap((finding) => copies_mm.map((at_mm) => moved(finding, at_mm))))
+    .flatMap(({ copies_mm, found }) => found.findings.filter(({ severity }) => severity === "review" || severity === "reject").flatMap((finding) => copies_mm.map((at_mm) => outlined(finding, at_mm))))
     .slice(0, MOST_OUTLINES);
 }
 

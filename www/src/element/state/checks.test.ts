@@ -148,7 +148,7 @@ test("on a plate each model is checked, its findings are where its first copy st
   expect(session.checks.pull_n).toEqual([1.5, 6]);
   expect(session.checks.marks).toEqual([]);
   session.checks.choose(cup?.found.findings[0] ?? null);
-  expect(session.checks.marks).toMatchObject([{ bounds_mm: [[-21, 4, 0], [-19, 6, 2]] }, { bounds_mm: [[19, 4, 0], [21, 6, 2]] }]);
+  expect(session.checks.marks).toMatchObject([{ bounds_mm: [[-21, 4, 0], [-19, 6, 2]], isHollow: true }, { bounds_mm: [[19, 4, 0], [21, 6, 2]] }]);
   session.checks.choose(null);
   expect(session.checks.marks).toEqual([]);
 });

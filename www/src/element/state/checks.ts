@@ -4,7 +4,7 @@ import { isAbort, SlicerError } from "../../api/error.js";
 import type { Check, Slicer } from "../../api/index.js";
 import type { Finding, Limits } from "../../api/wire.js";
 import { isEqual } from "./plain.js";
-import { checkedOf, onCopies, outlinesOf, pullOf, type Checked } from "./checked.js";
+import { checkedOf, onCopies, outlinesOf, pullOf, type Checked, type Outline } from "./checked.js";
 import type { Result } from "./result.js";
 
 export interface ChecksHost {
@@ -25,7 +25,7 @@ interface Subject {
   readonly limits: Limits | null;
 }
 
-const NO_MARKS: readonly Finding[] = [];
+const NO_MARKS: readonly Outline[] = [];
 const NO_PULLS: readonly number[] = [];
 
 export class Checks {
@@ -40,7 +40,7 @@ export class Checks {
   #chosen: Finding | null = null;
   #marks = NO_MARKS;
   /** Computed when first shown. */
-  #outlines: readonly Finding[] | null = null;
+  #outlines: readonly Outline[] | null = null;
   #pull_n: readonly number[] | null = null;
   #showsWalls = false;
   #error: SlicerError | null = null;
@@ -114,17 +114,17 @@ export class Checks {
   }
 
   /** The chosen finding on each copy with the same turn; empty without one. */
-  get marks(): readonly Finding[] {
+  get marks(): readonly Outline[] {
     return this.chosen === null ? NO_MARKS : this.#marks;
   }
 
   /** Findings of the current check that need attention, on each copy. */
-  get outlines(): readonly Finding[] {
+  get outlines(): readonly Outline[] {
     return this.check === null ? NO_MARKS : (this.#outlines ??= outlinesOf(this.models));
   }
 
   /** The same; empty unless a panel shows the findings. */
-  get places(): readonly Finding[] {
+  get places(): readonly Outline[] {
     return this.#isOpen ? this.outlines : NO_MARKS;
   }
 

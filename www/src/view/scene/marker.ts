@@ -7,6 +7,8 @@ export interface Mark {
   readonly at_mm: Triple;
   /** Minimum and maximum corner. */
   readonly bounds_mm: readonly [Triple, Triple];
+  /** True for a hollow, around which no surface is painted. */
+  readonly isHollow?: boolean;
 }
 
 /** In no layer palette, and visible on all of them. */
@@ -26,6 +28,7 @@ export class Marker {
   readonly group = new Group();
   readonly #edges = new EdgesGeometry(new BoxGeometry(1, 1, 1));
   readonly #lines: LineBasicMaterial;
+  #painted: readonly LineSegments[] = [];
 
   constructor(isFaint = false) {
     this.#lines = new LineBasicMaterial({ color: MARK_COLOUR, transparent: true, opacity: isFaint ? 0.6 : 1, depthTest: false, depthWrite: false });
@@ -36,9 +39,9 @@ export class Marker {
     return this.group.children[0]?.scale.length() ?? 0;
   }
 
-  /** Minimum and maximum corner of each box, with a margin. */
-  get boxes(): readonly (readonly [Vector3, Vector3])[] {
-    return this.group.children.map(({ position, scale }) => {
+  /** Boxes whose surface is to be painted: minimum and maximum corner of each, with a margin. */
+  get painted(): readonly (readonly [Vector3, Vector3])[] {
+    return this.#painted.map(({ position, scale }) => {
       const half = scale.clone().multiplyScalar(0.5).addScalar(MARGIN_MM);
       return [position.clone().sub(half), position.clone().add(half)];
     });
@@ -55,6 +58,7 @@ export class Marker {
       box.scale.set(Math.max(least, high[0] - low[0]), Math.max(least, high[1] - low[1]), Math.max(least, high[2] - low[2]));
       return box;
     });
+    this.#painted = boxes.filter((_, i) => marks[i]?.isHollow !== true);
     this.group.clear();
     if (boxes.length > 0) this.group.add(...boxes);
   }

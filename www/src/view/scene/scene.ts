@@ -282,7 +282,7 @@ export class Scene {
 
   /** Paints the surface at all places; the chosen ones come first. */
   #paintMarks(): void {
-    const boxes = [...this.#marker.boxes, ...this.#places.boxes];
+    const boxes = [...this.#marker.painted, ...this.#places.painted];
     this.model.setMarked(boxes);
     this.copies.isMarked = boxes.length > 0;
   }
