@@ -71,7 +71,7 @@ pub struct Limits {
     /// Thin floors and low gaps below this area are notes, in mm², as are walls, gaps and holes of less than this area times their
     /// limit: tips and edges of every model.
     pub note_mm2: f64,
-    /// The severity of each kind of finding, at most: those with a volume have a lower one where it is small.
+    /// The severity of each kind of finding, at most: small findings have a lower one.
     pub severity: Severities,
 }
 

@@ -12,7 +12,7 @@ use super::stages::prepared::Prepared;
 use super::stages::stage::{Stage, StageProgress};
 use super::{Error, Job, Report};
 use crate::arrange::{self, ArrangeError, TURN_DEG};
-use crate::inspect::{self, Finding, Held, Limits, Printability, Verdict};
+use crate::inspect::{self, Finding, Limits, Printability, Verdict};
 use crate::ldi::LdiError;
 use crate::model::{FacetClass, Mesh};
 use crate::plan::Plan;
@@ -256,10 +256,9 @@ impl Job {
         let all = planned.models.iter().zip(&masks.stamps).enumerate();
         let found = all.map(|(place, (model, stamp))| {
             let mut within = |fraction| progress(Stage::Inspect, (place as f64 + fraction) / count);
-            let held = Held {
-                film_kpa,
-                ..model.sampled().held(limits)
-            };
+            // The options of supports may state another film than the printer.
+            let mut held = model.sampled().held(limits);
+            held.film_kpa = held.film_kpa.or(film_kpa);
             let unmended = planned.unmended(place);
             let found = inspect::inspect(
                 &stamp.masks,

@@ -86,7 +86,7 @@ pub enum RayImage<'a> {
 #[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
-    /// Rays found again. Without values of [`Anew`] its code is not compiled.
+    /// Rays that each pass scans again. In browsers [`Anew`] has no values, and the compiler drops this code.
     Scanned(Scan<'a>, Anew),
 }
 

@@ -580,3 +580,24 @@ fn the_film_is_the_printers_unless_sizes_state_one() {
         assert_near(load_n(printer_kpa, own_kpa), times * usual_n, 1e-3);
     }
 }
+
+#[test]
+fn the_check_pulls_with_the_film_of_the_supports() {
+    let top_n = |film_kpa: f64| {
+        let profile = SupportProfile {
+            film_kpa: Some(film_kpa),
+            ..SupportProfile::default()
+        };
+        let options = Options {
+            supports: Some(Supporting {
+                profile: Some(profile),
+                ..Supporting::default()
+            }),
+            ..Options::default()
+        };
+        // The last layer, far above the supports, is the same for both.
+        let (_, found) = print(&cuboid([0.0; 3], [6.0, 6.0, 4.0]), &options);
+        *found.peel.pull_n.last().unwrap()
+    };
+    assert_near(top_n(30.0) / top_n(15.0), 2.0, 1e-9);
+}

@@ -310,6 +310,7 @@ impl Sampled {
             tip_mm: profile.tip_mm,
             joints_mm: supported.joints_mm.iter().copied().map(lifted).collect(),
             joint_reach_mm: 2.0 * profile.pillar_mm,
+            film_kpa: profile.film_kpa,
             ..held
         }
     }

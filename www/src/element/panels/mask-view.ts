@@ -62,7 +62,7 @@ const PROPERTIES = {
   pull_n: given<readonly number[] | null>(null),
   /** The chosen finding, in its layers on each copy. */
   marks: given<readonly Place[]>([]),
-  /** Other findings, likewise. */
+  /** All findings, likewise. */
   places: given<readonly Place[]>([]),
   language: given(languageOf()),
   place: own(WHOLE),
