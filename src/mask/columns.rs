@@ -1,6 +1,6 @@
 //! Pixels that are lit, or dark between lit ones, for few layers.
 
-use super::{Band, Change, Masks, Samples};
+use super::{Band, Change, Masks, Samples, Span};
 use crate::parallel;
 
 /// Marks a pixel that is lit.
@@ -46,7 +46,7 @@ impl Masks {
 
     /// Returns true if no pixel is lit in any layer.
     pub(crate) fn is_black(&self) -> bool {
-        self.bands.iter().all(|band| band.pixels.is_empty())
+        self.bands.iter().all(|band| band.spans.is_empty())
     }
 }
 
@@ -59,23 +59,25 @@ fn short_in(band: &Band, samples: Samples, layers: usize, until: &Until) -> [Vec
     let mut since = vec![0u32; pixels];
     let mut found = [Vec::new(), Vec::new()];
     let mut add = |place: usize, from: u32, to: u32, is_lit: bool| {
-        let pixel = band.area.start + place as u32;
+        let span = Span::of(place as u32);
         let changes = &mut found[usize::from(!is_lit)];
-        changes.push(Change::new(from, pixel, 1));
-        changes.push(Change::new(to, pixel, -1));
+        changes.push(Change::new(from, span, 1));
+        changes.push(Change::new(to, span, -1));
     };
     for layer in 0..layers {
         let changes = band.of_layer(layer);
         for index in changes.clone() {
-            let lit = &mut samples_lit[(band.pixels[index] - band.area.start) as usize];
-            match band.by.get(index) {
-                Some(&by) => *lit = lit.wrapping_add_signed(by),
-                None => *lit ^= 1,
+            for pixel in band.spans[index].range() {
+                let lit = &mut samples_lit[pixel as usize];
+                match band.by.get(index) {
+                    Some(&by) => *lit = lit.wrapping_add_signed(by),
+                    None => *lit ^= 1,
+                }
             }
         }
         let layer = layer as u32;
-        for &pixel in &band.pixels[changes] {
-            let place = (pixel - band.area.start) as usize;
+        for pixel in band.spans[changes].iter().flat_map(|span| span.range()) {
+            let place = pixel as usize;
             let is_lit = samples_lit[place] >= half;
             let before = since[place];
             let was_lit = before & LIT != 0;

@@ -9,7 +9,7 @@ use std::ops::Range;
 use super::entries::{Column, Entries, Raise};
 use super::samples::SublayerOf;
 use super::step::{Step, Stretch};
-use super::{Change, each_change};
+use super::{Change, Span, each_change};
 use crate::grid::Grid;
 use crate::ldi::RayRows;
 
@@ -108,7 +108,7 @@ impl Compensated<'_> {
                     for column in columns {
                         let pixel = pixel_of(row, column as usize);
                         let sign = if is_on { 1 } else { -1 };
-                        each_change(sublayer, self.parts, sign, pixel, &mut emit);
+                        each_change(sublayer, self.parts, sign, Span::of(pixel), &mut emit);
                     }
                 });
                 *before = now;

@@ -60,9 +60,10 @@ struct Band {
     area: Range<u32>,
     /// The changes of layer k are those from `starts[k]` to `starts[k + 1]`.
     starts: Vec<u32>,
-    /// Pixels of the window that differ from the layer below, sorted by layer.
-    pixels: Vec<u32>,
-    /// The change of each in lit samples. Empty if pixels have a single sample, which can only flip.
+    /// Pixels that differ from the layer below, sorted by layer. A pixel may be in several spans of a layer: with a single
+    /// sample it flips with each, and otherwise their changes add up.
+    spans: Vec<Span>,
+    /// The change of each pixel of a span in lit samples. Empty if pixels have a single sample, which can only flip.
     by: Vec<i8>,
 }
 
@@ -80,7 +81,7 @@ impl Masks {
             let place = Place::new(&image.grid, grid, samples, side);
             Self::of_bands(plan.layers(), grid, samples, &place, |rows, changes| {
                 of_rays(image, samples, &place, &sublayer_of, rows, |change| {
-                    changes.push(change);
+                    change.join(changes);
                 });
             })
         })
@@ -117,7 +118,7 @@ impl Masks {
         let keep = |changes: &mut Vec<Change>, mut change: Change| {
             if layers.contains(&change.layer()) {
                 change.lower(layers.start);
-                changes.push(change);
+                change.join(changes);
             }
         };
         if compensations.xy_mm.iter().all(|&mm| mm == 0.0) {
@@ -146,7 +147,8 @@ impl Masks {
             offset,
         };
         Self::of_bands(layers.len(), grid, samples, &place, |rows, changes| {
-            let pixel_of = |row: usize, column: usize| place.rows[row] + place.columns[column];
+            let first = place.area(&rows).start;
+            let pixel_of = |row: usize, column: usize| place.pixel(row, column) - first;
             compensated.changes(rows, pixel_of, |change| keep(changes, change));
         })
     }
@@ -215,6 +217,7 @@ fn of_rays(
     mut emit: impl FnMut(Change),
 ) {
     let width = image.grid.width as usize;
+    let first_pixel = place.area(&rows).start;
     let mut column_ranges = Column::new();
     for first in rows.clone().step_by(ROWS_AT_ONCE as usize) {
         let end = (first + ROWS_AT_ONCE as usize).min(rows.end);
@@ -222,14 +225,15 @@ fn of_rays(
         let rays = held.rays();
         for row in first..end {
             for (column, &in_row) in place.columns.iter().enumerate() {
-                let pixel = place.rows[row] + in_row;
+                let pixel = place.rows[row] + in_row - first_pixel;
                 let hits = rays.ray((row - first) * width + column);
                 ranges.of_ray(hits, image.classes, &mut column_ranges, |on, off| {
                     if on >= off {
                         return;
                     }
                     for (sublayer, sign) in [(on, 1), (off, -1)] {
-                        each_change(sublayer, samples.sublayers, sign, pixel, &mut emit);
+                        let span = Span::of(pixel);
+                        each_change(sublayer, samples.sublayers, sign, span, &mut emit);
                     }
                 });
             }
@@ -258,19 +262,67 @@ pub fn black_layers(solid: &Solid, plan: &Plan, samples: Samples) -> Vec<usize> 
     black.into_iter().map(|layer| layer as usize).collect()
 }
 
-/// A pixel of the window, and the number of its samples that a layer lights more (or fewer) than the layer below.
+/// Consecutive pixels of a band, in four bytes: the first in the upper 21 bits, their number less one in the lower eleven.
+#[derive(Debug, Clone, Copy, PartialEq, Eq)]
+struct Span(u32);
+
+impl Span {
+    const LENGTH_BITS: u32 = 11;
+    /// The most pixels of a span.
+    const MOST: u32 = 1 << Self::LENGTH_BITS;
+    /// The most pixels of a band.
+    const BAND_PIXELS: u32 = 1 << (32 - Self::LENGTH_BITS);
+
+    /// A single pixel, counted from the first of the band.
+    fn of(pixel: u32) -> Self {
+        Self(pixel << Self::LENGTH_BITS)
+    }
+
+    /// At most [`Self::MOST`] pixels from one on.
+    fn from(first: u32, pixels: u32) -> Self {
+        Self(first << Self::LENGTH_BITS | (pixels - 1))
+    }
+
+    fn first(self) -> u32 {
+        self.0 >> Self::LENGTH_BITS
+    }
+
+    fn pixels(self) -> u32 {
+        (self.0 & (Self::MOST - 1)) + 1
+    }
+
+    /// The pixels, counted from the first of the band.
+    fn range(self) -> Range<u32> {
+        let first = self.first();
+        first..first + self.pixels()
+    }
+
+    /// The pixels of two spans side by side as one, if it can hold them.
+    fn joined(self, other: Self) -> Option<Self> {
+        let first = self.first().min(other.first());
+        let pixels = self.pixels() + other.pixels();
+        let touch = self.first() + self.pixels() == other.first()
+            || other.first() + other.pixels() == self.first();
+        (touch && pixels <= Self::MOST).then(|| Self::from(first, pixels))
+    }
+}
+
+/// Pixels, and the number of samples of each that a layer lights more (or fewer) than the layer below.
 ///
 /// Eight bytes, since writing and sorting changes is bound by memory: plans have fewer than two million layers.
 struct Change {
-    pixel: u32,
+    span: Span,
     /// The layer in the upper 24 bits, the number of samples in the lower eight.
     layer_and_by: u32,
 }
 
+/// Number of changes that the next one may go on from: of a ray that enters and leaves the solid once, with several samples.
+const OPEN_CHANGES: usize = 4;
+
 impl Change {
-    fn new(layer: u32, pixel: u32, by: i8) -> Self {
+    fn new(layer: u32, span: Span, by: i8) -> Self {
         Self {
-            pixel,
+            span,
             layer_and_by: layer << 8 | u32::from(by.cast_unsigned()),
         }
     }
@@ -287,15 +339,29 @@ impl Change {
     fn lower(&mut self, first_layer: usize) {
         self.layer_and_by -= (first_layer as u32) << 8;
     }
+
+    /// Adds it to changes, as part of one of the last if that goes on.
+    #[inline]
+    fn join(self, changes: &mut Vec<Self>) {
+        for open in changes.iter_mut().rev().take(OPEN_CHANGES) {
+            if open.layer_and_by == self.layer_and_by
+                && let Some(joined) = open.span.joined(self.span)
+            {
+                open.span = joined;
+                return;
+            }
+        }
+        changes.push(self);
+    }
 }
 
-/// Calls `emit` for each layer that changes if a ray of a pixel changes at a sublayer: the layer of that sublayer, and the
+/// Calls `emit` for each layer that changes if rays of pixels change at a sublayer: the layer of that sublayer, and the
 /// one above unless the sublayer is its lowest.
-fn each_change(sublayer: u32, parts: u32, sign: i8, pixel: u32, emit: &mut impl FnMut(Change)) {
+fn each_change(sublayer: u32, parts: u32, sign: i8, span: Span, emit: &mut impl FnMut(Change)) {
     let (layer, below) = (sublayer / parts, sublayer % parts);
     let mut change = |layer, parts: u32| {
         let by = sign * parts as i8;
-        emit(Change::new(layer, pixel, by));
+        emit(Change::new(layer, span, by));
     };
     change(layer, parts - below);
     if below > 0 {
@@ -319,11 +385,11 @@ impl Band {
         }
         let is_one = samples == Samples::ONE;
         let kept = starts[layers + 1] as usize;
-        let mut pixels = vec![0u32; kept];
+        let mut spans = vec![Span(0); kept];
         let mut by = vec![0i8; if is_one { 0 } else { kept }];
         for change in changes.iter().filter(|change| change.layer() < layers) {
             let slot = &mut starts[change.layer() + 1];
-            pixels[*slot as usize] = change.pixel;
+            spans[*slot as usize] = change.span;
             if !is_one {
                 by[*slot as usize] = change.by();
             }
@@ -333,7 +399,7 @@ impl Band {
         Self {
             area,
             starts,
-            pixels,
+            spans,
             by,
         }
     }
@@ -416,26 +482,32 @@ impl MaskCursor {
     fn change(&mut self, masks: &Masks, layer: usize, sign: i8) {
         for band in &masks.bands {
             let changes = band.of_layer(layer);
+            let pixels = |span: Span| {
+                let Range { start, end } = span.range();
+                (band.area.start + start) as usize..(band.area.start + end) as usize
+            };
             match &mut self.light {
                 Light::Bits(bits) => {
-                    for &pixel in &band.pixels[changes] {
-                        let byte = &mut bits[pixel as usize / 8];
-                        let bit = 0x80 >> (pixel % 8);
-                        *byte ^= bit;
-                        if *byte & bit == 0 {
-                            self.lit_pixels -= 1;
-                        } else {
-                            self.lit_pixels += 1;
+                    for &span in &band.spans[changes] {
+                        for pixel in pixels(span) {
+                            let byte = &mut bits[pixel / 8];
+                            let bit = 0x80 >> (pixel % 8);
+                            *byte ^= bit;
+                            if *byte & bit == 0 {
+                                self.lit_pixels -= 1;
+                            } else {
+                                self.lit_pixels += 1;
+                            }
                         }
                     }
                 }
                 Light::Samples(samples) => {
-                    for (&pixel, &by) in band.pixels[changes.clone()].iter().zip(&band.by[changes])
-                    {
-                        let lit = &mut samples[pixel as usize];
-                        self.lit_pixels -= u64::from(*lit > 0);
-                        *lit = lit.wrapping_add_signed(sign * by);
-                        self.lit_pixels += u64::from(*lit > 0);
+                    for (&span, &by) in band.spans[changes.clone()].iter().zip(&band.by[changes]) {
+                        for lit in &mut samples[pixels(span)] {
+                            self.lit_pixels -= u64::from(*lit > 0);
+                            *lit = lit.wrapping_add_signed(sign * by);
+                            self.lit_pixels += u64::from(*lit > 0);
+                        }
                     }
                 }
             }

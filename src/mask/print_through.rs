@@ -375,7 +375,7 @@ impl Masks {
             };
             Self::of_bands(plan.layers(), grid, samples, &place, |rows, changes| {
                 of_rays(image, samples, &place, &ranges, rows, |change| {
-                    changes.push(change);
+                    change.join(changes);
                 });
             })
         }))

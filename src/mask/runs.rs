@@ -1,6 +1,6 @@
 //! Masks as runs of lit pixels, straight from the changes between layers.
 //!
-//! A run begins where a pixel differs from the one to its left. Two changed edges for every changed pixel are all that a new
+//! A run begins where a pixel differs from the one to its left. Two edges for every span of changed pixels are all that a new
 //! layer costs, and two levels of bits find the edges without looking at the pixels between them.
 
 use std::ops::Range;
@@ -262,17 +262,19 @@ impl State {
 
     fn change(&mut self, band: &Band, layer: usize) {
         let changes = band.of_layer(layer);
-        let pixels = &band.pixels[changes.clone()];
+        let spans = &band.spans[changes.clone()];
         if self.lit.is_empty() {
-            for &pixel in pixels {
-                let place = (pixel - band.area.start) as usize;
-                self.edges.flip(place);
-                self.edges.flip(place + 1);
+            for span in spans {
+                let Range { start, end } = span.range();
+                self.edges.flip(start as usize);
+                self.edges.flip(end as usize);
             }
             return;
         }
-        for (&pixel, &by) in pixels.iter().zip(&band.by[changes]) {
-            let place = (pixel - band.area.start) as usize;
+        let spans = spans.iter().zip(&band.by[changes]);
+        let pixels = spans.flat_map(|(span, &by)| span.range().map(move |pixel| (pixel, by)));
+        for (pixel, by) in pixels {
+            let place = pixel as usize;
             let old = self.lit[place];
             let new = old.wrapping_add_signed(by);
             self.lit[place] = new;

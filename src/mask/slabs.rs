@@ -11,7 +11,8 @@ use super::runs::ReadPlace;
 use super::samples::SublayerOf;
 use super::window::Place;
 use super::{
-    Band, Change, Compensations, LayerRuns, Masks, RunReader, RunSource, Samples, Side, each_change,
+    Band, Change, Compensations, LayerRuns, Masks, RunReader, RunSource, Samples, Side, Span,
+    each_change,
 };
 use crate::grid::Grid;
 use crate::ldi::cpu::Scan;
@@ -241,12 +242,13 @@ impl Finder<'_> {
                         continue;
                     }
                     let (row, column) = (ray / width, ray % width);
-                    let pixel = place.rows[rest.start as usize + row] + place.columns[column];
+                    let pixel = place.pixel(rest.start as usize + row, column);
+                    let span = Span::of(pixel - area.start);
                     let ray = first_ray + ray;
                     let below = windings.get(ray);
                     let mut flip = |sublayer, sign| {
-                        each_change(sublayer, samples.sublayers, sign, pixel, &mut |change| {
-                            changes.push(change);
+                        each_change(sublayer, samples.sublayers, sign, span, &mut |change| {
+                            change.join(&mut changes);
                         });
                     };
                     let above = flips_along(hits, mesh.classes, below, sublayer_of, &mut flip);

@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::Samples;
+use super::{Samples, Span};
 use crate::grid::Grid;
 
 /// A rectangular part of a mask, in whole bytes of its one-bit rows.
@@ -88,9 +88,25 @@ impl Place {
                 .collect(),
         }
     }
+
+    /// The pixel of a ray.
+    pub fn pixel(&self, row: usize, column: usize) -> u32 {
+        self.rows[row] + self.columns[column]
+    }
+
+    /// The band of a row of rays.
+    pub fn band_of(&self, row: usize) -> usize {
+        (self.rows[row] / self.band_pixels()) as usize
+    }
+
+    fn band_pixels(&self) -> u32 {
+        let row_pixels = self.window.row_pixels() as u32;
+        BAND_ROWS.min(Span::BAND_PIXELS / row_pixels) * row_pixels
+    }
+
     /// The rows of rays in bands that share no row of pixels, from the top row down.
     pub fn bands(&self) -> Vec<Range<usize>> {
-        let band_pixels = BAND_ROWS * self.window.row_pixels() as u32;
+        let band_pixels = self.band_pixels();
         let mut bands = Vec::new();
         let mut row = 0;
         // Several rows of rays may share a row of pixels, which is then in one band.
