@@ -3,7 +3,7 @@
 use crate::common::{on_plate, solids};
 use cusp_slicer::compensation::Compensation;
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::ldi::{Ldi, cpu};
+use cusp_slicer::ldi::{Ldi, RayImage, cpu};
 use cusp_slicer::mask::{Compensations, Light, Masks, Raise, RunSource, Samples, Side};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::plan::{Plan, uniform};
@@ -159,8 +159,14 @@ fn every_pixel_agrees_with_a_naive_erosion() {
                 raise: Raise::By(compensation.z_mm),
                 least_mm: 0.0,
             };
-            let masks =
-                Masks::compensated(&ldi, &plan, &grid, samples, Side::Above, &compensations);
+            let masks = Masks::compensated(
+                RayImage::Kept(&ldi),
+                &plan,
+                &grid,
+                samples,
+                Side::Above,
+                &compensations,
+            );
             let runs = masks.reader().next(plan.layers());
             for layer in 0..plan.layers() {
                 let expected = naive(&whole, &plan, layer, samples, &compensations);
@@ -199,7 +205,14 @@ fn without_compensation_nothing_changes() {
         };
         for side in [Side::Above, Side::Below] {
             let plain = Masks::new(&ldi, &plan, &grid, samples, side);
-            let compensated = Masks::compensated(&ldi, &plan, &grid, samples, side, &compensations);
+            let compensated = Masks::compensated(
+                RayImage::Kept(&ldi),
+                &plan,
+                &grid,
+                samples,
+                side,
+                &compensations,
+            );
             let all = |masks: &Masks| masks.reader().next(plan.layers());
             assert_eq!(all(&plain), all(&compensated), "{name}");
         }
@@ -225,7 +238,7 @@ fn sides_of_a_cube_fade_from_the_elephants_foot() {
         least_mm: 0.0,
     };
     let masks = Masks::compensated(
-        &ldi,
+        RayImage::Kept(&ldi),
         &plan,
         &grid,
         Samples::ONE,
@@ -260,7 +273,7 @@ fn raised_entries_are_those_of_counted_layers() {
             least_mm: 0.0,
         };
         let raised = Masks::compensated(
-            &ldi,
+            RayImage::Kept(&ldi),
             &plan,
             &grid,
             Samples::ONE,

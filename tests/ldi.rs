@@ -5,7 +5,9 @@ use std::ops::ControlFlow;
 use crate::common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::visibility::visibility;
-use cusp_slicer::ldi::{Hit, Ldi, LdiError, RayImage, Survey, cpu, model_ranges, printed_ranges};
+use cusp_slicer::ldi::{
+    Hit, Ldi, LdiError, MeshRays, RayImage, Survey, cpu, model_ranges, printed_ranges,
+};
 use cusp_slicer::model::{FacetClass, FacetClasses, Mesh};
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::section;
@@ -406,7 +408,14 @@ fn voids_are_left_out_of_the_model_and_supports_are_not() {
     let facet_bins = |mesh: &Mesh| FacetBins::of(mesh, bins);
     assert_eq!(facet_bins(&joined).spans, facet_bins(&model).spans);
     let seen = |mesh: &Mesh, ldi: &Ldi| {
-        visibility(mesh, RayImage::Kept(ldi), &survey(ldi), &mut silent).unwrap()
+        let image = RayImage::Kept(ldi);
+        let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
+        let rays = MeshRays {
+            mesh,
+            image,
+            overlaps: Some(&overlaps),
+        };
+        visibility(rays, &survey, &mut silent).unwrap()
     };
     assert_eq!(seen(&joined, &ldi), seen(&model, &alone));
     let printed_mm3 = survey(&ldi).solid.volume_mm3;

@@ -7,7 +7,7 @@ use crate::common::Slicer;
 use crate::common::{binary_stl, on_plate, quiet, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Backend, Options};
-use cusp_slicer::ldi::{Hit, cpu};
+use cusp_slicer::ldi::{Hit, RayImage, Survey, cpu};
 use cusp_slicer::mask::{LEVELS, Light, MaskCursor, Masks, Samples, Side};
 use cusp_slicer::plan::{Plan, uniform};
 use cusp_slicer::progress::silent;
@@ -306,8 +306,16 @@ fn grey_is_the_part_of_samples_inside() {
                 }
                 lit
             };
-            for side in [Side::Above, Side::Below] {
-                let masks = Masks::new(&ldi, &plan, &grid, samples, side);
+            let (_, overlaps) = Survey::with_overlaps(RayImage::Kept(&ldi), &mut silent).unwrap();
+            let made = [Side::Above, Side::Below].map(|side| {
+                let grids = [&ldi.grid, &grid];
+                let of_facets = Masks::of_facets(&mesh, grids, &overlaps, &plan, samples, side);
+                [
+                    (side, Masks::new(&ldi, &plan, &grid, samples, side)),
+                    (side, of_facets),
+                ]
+            });
+            for (side, masks) in made.into_iter().flatten() {
                 let window = masks.window;
                 let mut cursor = masks.cursor();
                 let mut any = 0;

@@ -3,7 +3,7 @@
 use crate::common::{assert_near, on_plate, oracle, sample, solids};
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::ldi::visibility::{Visibility, visibility};
-use cusp_slicer::ldi::{Ldi, RayImage, Survey, cpu};
+use cusp_slicer::ldi::{Ldi, MeshRays, RayImage, Survey, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::profile::facet_bins::{FacetBins, Flat};
 use cusp_slicer::profile::snap_planes::{Surface, snap_planes};
@@ -53,8 +53,13 @@ fn seen(mesh: &Mesh, rays: u32) -> Visibility {
 
 fn seen_along(mesh: &Mesh, ldi: &Ldi) -> Visibility {
     let image = RayImage::Kept(ldi);
-    let survey = Survey::of(image, &mut silent).unwrap();
-    visibility(mesh, image, &survey, &mut silent).unwrap()
+    let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
+    let rays = MeshRays {
+        mesh,
+        image,
+        overlaps: Some(&overlaps),
+    };
+    visibility(rays, &survey, &mut silent).unwrap()
 }
 
 /// The largest `n_z²` of each bin, along the rays.

@@ -239,8 +239,11 @@ impl Job {
             let mut within = |stage, fraction| progress(stage, (number as f64 + fraction) / count);
             let weights = self.models[model].layering_weights(&resolved.layering, &mut within)?;
             let protected = sampling.protected(weights.as_deref());
+            let keeps_rays = resolved.layering.needs_rays();
             let known = kept.iter().position(|shape| {
-                shape.model == model && shape.sampled.is_of(&sampling, protected)
+                shape.model == model
+                    && shape.sampled.is_of(&sampling, protected)
+                    && (shape.sampled.keeps_rays() || !keeps_rays)
             });
             let shape = if let Some(known) = known {
                 kept.swap_remove(known)
@@ -253,7 +256,7 @@ impl Job {
                 let mut within = |fraction| within(Stage::Ldi, begun + (1.0 - begun) * fraction);
                 let sampled = self
                     .sampler
-                    .sample(&sampling, prepared, timings, &mut within)
+                    .sample(&sampling, prepared, keeps_rays, timings, &mut within)
                     .await?;
                 Shape {
                     model,

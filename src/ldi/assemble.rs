@@ -32,7 +32,7 @@ pub(super) fn zeroed<T: bytemuck::Zeroable>(count: usize) -> Result<Vec<T>, LdiE
     bytemuck::allocation::try_zeroed_vec(count).map_err(|()| out_of_memory(count as u64))
 }
 
-fn out_of_memory(hits: u64) -> LdiError {
+pub(super) fn out_of_memory(hits: u64) -> LdiError {
     LdiError::OutOfMemory {
         hits,
         needed_bytes: hits * size_of::<Hit>() as u64,
@@ -128,15 +128,20 @@ impl<'a> RecentFacets<'a> {
 pub(super) fn sort_rays(offsets: &[u32], hits: &mut [Hit]) {
     let base = offsets[0];
     for ray in offsets.windows(2) {
-        let ray = &mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize];
-        match ray {
-            [] | [_] => {}
-            [low, high] => {
-                if low.key() > high.key() {
-                    std::mem::swap(low, high);
-                }
+        sort_ray(&mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize]);
+    }
+}
+
+/// Sorts the hits of a ray.
+#[inline]
+pub(super) fn sort_ray(hits: &mut [Hit]) {
+    match hits {
+        [] | [_] => {}
+        [low, high] => {
+            if low.key() > high.key() {
+                std::mem::swap(low, high);
             }
-            _ => ray.sort_unstable_by_key(|hit| hit.key()),
         }
+        _ => hits.sort_unstable_by_key(|hit| hit.key()),
     }
 }

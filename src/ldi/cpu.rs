@@ -5,7 +5,7 @@
 
 use std::ops::Range;
 
-use super::projection::Projection;
+use super::projection::{Projection, RowHeights};
 use super::rays::{BAND_ROWS, Rays};
 use super::{Hit, Ldi, LdiError, assemble};
 use crate::grid::Grid;
@@ -27,7 +27,7 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
 
     map_in_groups(
         offsets[1..].chunks_mut(band_rays).enumerate(),
-        |(band, counts)| scan.count(band, scan.rows(band), None, counts),
+        |(band, counts)| scan.count(band, counts),
         |()| Ok::<_, LdiError>(()),
         progress,
         [0.05, 0.35],
@@ -39,7 +39,12 @@ pub fn sample(mesh: &Mesh, grid: &Grid, progress: &mut Progress<'_>) -> Result<L
         assemble::by_rays(&offsets, &mut hits, band_rays)
             .into_iter()
             .enumerate(),
-        |(band, (offsets, hits))| scan.fill(band, scan.rows(band), None, offsets, hits),
+        |(band, (offsets, hits))| {
+            let base = offsets[0];
+            let cursors = offsets.iter().map(|offset| offset - base).collect();
+            scan.fill(band, cursors, hits);
+            assemble::sort_rays(offsets, hits);
+        },
         |()| Ok::<_, LdiError>(()),
         progress,
         [0.35, 1.0],
@@ -89,10 +94,31 @@ pub struct Scan<'a> {
     classes: FacetClasses,
 }
 
+/// The pixels of a facet in a row.
+#[derive(Debug, Clone, Copy)]
+struct FacetSpan {
+    /// The first column, and the one after the last.
+    columns: [u32; 2],
+    /// A hit at height 0.
+    surface: Hit,
+    heights: RowHeights,
+}
+
+impl FacetSpan {
+    #[inline]
+    fn hit(&self, column: u32) -> Hit {
+        Hit {
+            z_mm: self.heights.at(column),
+            ..self.surface
+        }
+    }
+}
+
 /// The rays of some rows, as a [`Scan`] finds them.
 #[derive(Debug)]
 pub struct ScannedRays {
     first_row: u32,
+    width: u32,
     offsets: Vec<u32>,
     hits: Vec<Hit>,
     classes: FacetClasses,
@@ -103,10 +129,19 @@ impl ScannedRays {
     pub fn rays(&self) -> Rays<'_> {
         Rays {
             first_row: self.first_row,
+            width: self.width,
             offsets: &self.offsets,
             hits: &self.hits,
             classes: self.classes,
         }
+    }
+
+    /// Adds the rays of the rows that follow.
+    fn append(&mut self, rows: Rays<'_>) {
+        let base = self.hits.len() as u32;
+        let ends = rows.offsets[1..].iter();
+        self.offsets.extend(ends.map(|offset| base + offset));
+        self.hits.extend_from_slice(rows.hits);
     }
 }
 
@@ -169,10 +204,7 @@ impl<'a> Scan<'a> {
         while start < rows.end {
             let part = part_of(start);
             start += (part.rays().count() / width) as u32;
-            let base = all.hits.len() as u32;
-            all.offsets
-                .extend(part.offsets[1..].iter().map(|offset| base + offset));
-            all.hits.extend(part.hits);
+            all.append(part.rays());
         }
         all
     }
@@ -185,28 +217,106 @@ impl<'a> Scan<'a> {
     }
 
     fn part(&self, band: usize, rows: Range<u32>, slab: Option<Slab>) -> ScannedRays {
-        let rays = rows.len() * self.grid.width as usize;
-        let mut offsets = vec![0u32; rays + 1];
-        self.count(band, rows.clone(), slab, &mut offsets[1..]);
-        let mut total = 0;
-        for offset in &mut offsets {
-            total += *offset;
-            *offset = total;
-        }
-        let mut hits: Vec<Hit> = bytemuck::zeroed_vec(total as usize);
-        self.fill(band, rows.clone(), slab, &offsets, &mut hits);
-        ScannedRays {
+        let mut all = ScannedRays {
             first_row: rows.start,
-            offsets,
-            hits,
+            width: self.grid.width,
+            offsets: Vec::with_capacity(rows.len() * self.grid.width as usize + 1),
+            hits: Vec::new(),
             classes: self.classes,
+        };
+        all.offsets.push(0);
+        self.each_row(band, rows, slab, &mut |row| all.append(row));
+        all
+    }
+
+    /// Calls `take` with the rays of each of some rows of a band, whose hits are found and sorted in the cache.
+    fn each_row(
+        &self,
+        band: usize,
+        rows: Range<u32>,
+        slab: Option<Slab>,
+        take: &mut dyn FnMut(Rays<'_>),
+    ) {
+        let mut offsets = vec![0u32; self.grid.width as usize + 1];
+        let mut hits: Vec<Hit> = Vec::new();
+        for (first_row, spans) in rows.clone().zip(self.spans(band, rows, slab)) {
+            offsets.fill(0);
+            let starts = &mut offsets[1..];
+            for span in &spans {
+                let [from, to] = span.columns.map(|column| column as usize);
+                starts[from] = starts[from].wrapping_add(1);
+                if let Some(after) = starts.get_mut(to) {
+                    *after = after.wrapping_sub(1);
+                }
+            }
+            // Starts are stored one slot ahead: filling then advances each to where it belongs.
+            let (mut open, mut total) = (0u32, 0);
+            for start in &mut *starts {
+                open = open.wrapping_add(*start);
+                *start = total;
+                total += open;
+            }
+            hits.resize(total as usize, bytemuck::Zeroable::zeroed());
+            for span in &spans {
+                let [from, to] = span.columns;
+                let starts = &mut starts[from as usize..to as usize];
+                for (column, start) in (from..to).zip(starts) {
+                    hits[*start as usize] = span.hit(column);
+                    *start += 1;
+                }
+            }
+            assemble::sort_rays(&offsets, &mut hits);
+            take(Rays {
+                first_row,
+                width: self.grid.width,
+                offsets: &offsets,
+                hits: &hits,
+                classes: self.classes,
+            });
         }
     }
 
-    /// Writes the number of hits of every ray of some rows of a band: first the differences at the ends of spans, then their running
+    /// Calls `take` with the rays of each row of a band.
+    pub(super) fn each_row_of(&self, band: usize, take: &mut dyn FnMut(Rays<'_>)) {
+        self.each_row(band, self.rows(band), None, take);
+    }
+
+    /// The spans of facets in each of some rows of a band: with a slab, only their pixels in it.
+    fn spans(&self, band: usize, rows: Range<u32>, slab: Option<Slab>) -> Vec<Vec<FacetSpan>> {
+        let facets = self.bands.of(band);
+        let mut spans: Vec<Vec<FacetSpan>> = Vec::new();
+        spans.resize_with(rows.len(), Vec::new);
+        for &index in facets {
+            let Some(facet) = self.projection.facet(index as usize) else {
+                continue;
+            };
+            let crossed = slab.filter(|slab| !slab.covers(self.projection.heights(index as usize)));
+            facet.outline.for_each_span(rows.clone(), |row, columns| {
+                let spans = &mut spans[(row - rows.start) as usize];
+                let mut span = FacetSpan {
+                    columns: [columns.start, columns.end],
+                    surface: Hit::new(0.0, index, facet.faces_up),
+                    heights: facet.heights(row),
+                };
+                let Some(slab) = crossed else {
+                    return spans.push(span);
+                };
+                for column in columns {
+                    if slab.contains(span.heights.at(column)) {
+                        span.columns = [column, column + 1];
+                        spans.push(span);
+                    }
+                }
+            });
+        }
+        spans
+    }
+
+    /// Writes the number of hits of every ray of a band: first the differences at the ends of spans, then their running
     /// sums along the rows.
-    fn count(&self, band: usize, rows: Range<u32>, slab: Option<Slab>, counts: &mut [u32]) {
+    fn count(&self, band: usize, counts: &mut [u32]) {
         let width = self.grid.width as usize;
+        let rows = self.rows(band);
         let mut add = |row: u32, columns: Range<u32>| {
             let start = (row - rows.start) as usize * width;
             let counts = &mut counts[start..start + width];
@@ -216,18 +326,7 @@ impl<'a> Scan<'a> {
             }
         };
         for &facet in self.bands.of(band) {
-            let facet = facet as usize;
-            if let Some(slab) = slab.filter(|slab| !slab.covers(self.projection.heights(facet))) {
-                let Some(facet) = self.projection.facet(facet) else {
-                    continue;
-                };
-                facet.outline.for_each_span(rows.clone(), |row, columns| {
-                    let heights = facet.heights(row);
-                    for column in columns.filter(|&column| slab.contains(heights.at(column))) {
-                        add(row, column..column + 1);
-                    }
-                });
-            } else if let Some(outline) = self.projection.outline(facet) {
+            if let Some(outline) = self.projection.outline(facet as usize) {
                 outline.for_each_span(rows.clone(), &mut add);
             }
         }
@@ -240,37 +339,24 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Writes the hits of the rays of some rows of a band, in order.
-    fn fill(
-        &self,
-        band: usize,
-        rows: Range<u32>,
-        slab: Option<Slab>,
-        offsets: &[u32],
-        hits: &mut [Hit],
-    ) {
+    /// Writes the hits of the rays of a band at their cursors, in any order within a ray.
+    fn fill(&self, band: usize, mut cursors: Vec<u32>, hits: &mut [Hit]) {
         let width = self.grid.width as usize;
-        let base = offsets[0];
-        let mut cursors: Vec<u32> = offsets.iter().map(|offset| offset - base).collect();
+        let rows = self.rows(band);
         for &index in self.bands.of(band) {
             let Some(facet) = self.projection.facet(index as usize) else {
                 continue;
             };
-            let crossed = slab.filter(|slab| !slab.covers(self.projection.heights(index as usize)));
             facet.outline.for_each_span(rows.clone(), |row, columns| {
                 let heights = facet.heights(row);
                 let start = (row - rows.start) as usize * width;
                 let cursors =
                     &mut cursors[start + columns.start as usize..start + columns.end as usize];
                 for (column, cursor) in columns.zip(cursors) {
-                    let z_mm = heights.at(column);
-                    if crossed.is_none_or(|slab| slab.contains(z_mm)) {
-                        hits[*cursor as usize] = Hit::new(z_mm, index, facet.faces_up);
-                        *cursor += 1;
-                    }
+                    hits[*cursor as usize] = Hit::new(heights.at(column), index, facet.faces_up);
+                    *cursor += 1;
                 }
             });
         }
-        assemble::sort_rays(offsets, hits);
     }
 }

@@ -9,6 +9,7 @@ pub mod cpu;
 pub mod gpu;
 pub mod layout;
 mod missed;
+mod overlaps;
 pub mod projection;
 mod ranges;
 mod rays;
@@ -19,6 +20,7 @@ pub mod visibility;
 use serde::Serialize;
 
 pub use missed::{Missed, missed};
+pub use overlaps::{MeshRays, Overlaps, sign_of};
 pub use ranges::{model_ranges, printed_crossings, printed_entries, printed_ranges};
 pub use rays::{Anew, RayImage, RayRows, Rays};
 pub use solid::Solid;

@@ -23,6 +23,8 @@ const ROUNDS: usize = 64;
 pub struct Rays<'a> {
     /// The first of the rows.
     pub first_row: u32,
+    /// Number of columns.
+    pub width: u32,
     /// Start of the hits of each ray, and the end of the last ray's. The first number is that of `hits[0]`.
     pub offsets: &'a [u32],
     /// The hits of all of these rays, sorted by (height, facet) within each ray.
@@ -55,12 +57,12 @@ impl<'a> Rays<'a> {
     }
 }
 
-/// Permission to find hits again in each pass instead of keeping them.
+/// Permission to work without hits and masks in memory.
 #[cfg(not(target_arch = "wasm32"))]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub struct Anew;
 
-/// Permission to find hits again in each pass, which browsers never have: the type has no values, so that code is not
+/// Permission to work without hits and masks in memory, which browsers never have: the type has no values, so that code is not
 /// compiled and the module stays 20 KB smaller.
 #[cfg(target_arch = "wasm32")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
@@ -77,8 +79,6 @@ pub enum RayImage<'a> {
         mesh: &'a Mesh,
         /// The grid whose pixel centres the rays pass.
         grid: Grid,
-        /// Permission to do so.
-        leave: Anew,
     },
 }
 
@@ -86,8 +86,8 @@ pub enum RayImage<'a> {
 #[derive(Debug)]
 enum Bands<'a> {
     Kept(&'a Ldi),
-    /// Rays that each pass scans again. In browsers [`Anew`] has no values, and the compiler drops this code.
-    Scanned(Scan<'a>, Anew),
+    /// Rays that each pass scans again.
+    Scanned(Scan<'a>),
 }
 
 /// The rays of an image, which are read in any order.
@@ -106,7 +106,7 @@ pub enum HeldRays<'a> {
     /// Rays of an LDI.
     Kept(Rays<'a>),
     /// Rays that were found.
-    Scanned(ScannedRays, Anew),
+    Scanned(ScannedRays),
 }
 
 impl HeldRays<'_> {
@@ -114,7 +114,7 @@ impl HeldRays<'_> {
     pub fn rays(&self) -> Rays<'_> {
         match self {
             Self::Kept(rays) => *rays,
-            Self::Scanned(scanned, _) => scanned.rays(),
+            Self::Scanned(scanned) => scanned.rays(),
         }
     }
 }
@@ -142,9 +142,15 @@ impl RayRows<'_> {
             parts = parallel::map(parts, |(start, mut value)| {
                 let end = (start + part_bands).min(bands);
                 for band in start + round..(start + round + round_bands).min(end) {
-                    let first_row = band as u32 * BAND_ROWS;
-                    let held = self.of(first_row..(first_row + BAND_ROWS).min(height));
-                    step(&mut value, held.rays());
+                    // One instance of `step` for both sources keeps the module of browsers small.
+                    let take: &mut dyn FnMut(Rays<'_>) = &mut |rays| step(&mut value, rays);
+                    match &self.source {
+                        Bands::Kept(ldi) => {
+                            let first_row = band as u32 * BAND_ROWS;
+                            take(ldi.rows(first_row..(first_row + BAND_ROWS).min(height)));
+                        }
+                        Bands::Scanned(scan) => scan.each_row_of(band, take),
+                    }
                 }
                 (start, value)
             });
@@ -158,7 +164,7 @@ impl RayRows<'_> {
     pub fn of(&self, rows: Range<u32>) -> HeldRays<'_> {
         match &self.source {
             Bands::Kept(ldi) => HeldRays::Kept(ldi.rows(rows)),
-            Bands::Scanned(scan, leave) => HeldRays::Scanned(scan.of_rows(rows), *leave),
+            Bands::Scanned(scan) => HeldRays::Scanned(scan.of_rows(rows)),
         }
     }
 }
@@ -200,13 +206,9 @@ impl RayImage<'_> {
         let projection;
         let source = match self {
             Self::Kept(ldi) => Bands::Kept(ldi),
-            Self::Scanned {
-                mesh,
-                ref grid,
-                leave,
-            } => {
+            Self::Scanned { mesh, ref grid } => {
                 projection = Projection::new(mesh, grid);
-                Bands::Scanned(Scan::new(&projection, grid, mesh.classes), leave)
+                Bands::Scanned(Scan::new(&projection, grid, mesh.classes))
             }
         };
         read(&RayRows {
@@ -236,6 +238,7 @@ impl Ldi {
         let offsets = &self.offsets[rows.start as usize * width..=rows.end as usize * width];
         Rays {
             first_row: rows.start,
+            width: self.grid.width,
             offsets,
             hits: &self.hits[offsets[0] as usize..offsets[offsets.len() - 1] as usize],
             classes: self.classes,

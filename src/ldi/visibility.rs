@@ -3,9 +3,12 @@
 use std::sync::atomic::AtomicU8;
 use std::sync::atomic::Ordering::Relaxed;
 
-use super::{Hit, RayImage, Rays, Survey};
+use super::projection::Projection;
+use super::{Hit, MeshRays, Overlaps, RayImage, Rays, Survey};
+use crate::grid::Grid;
 use crate::model::crossing::crossed;
 use crate::model::{Mesh, bodies};
+use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 
 /// Visibility of the facets of a mesh, as an LDI shows it.
@@ -26,19 +29,24 @@ const MET: u8 = 1;
 const ON_SURFACE: u8 = 2;
 const INSIDE: u8 = 4;
 
-/// Finds the hidden facets of `mesh`, whose rays `image` has and `survey` surveyed. A facet that no ray meets counts as visible,
+/// Finds the hidden facets of a mesh, whose rays `survey` surveyed. A facet that no ray meets counts as visible,
 /// unless its body is hidden.
 ///
-/// Cost: none if rays pass through one body after another; otherwise linear in hits and facets.
+/// Cost: none if rays pass through one body after another; otherwise linear in facets, and in the hits of rays that overlap, or of all
+/// if those are not known.
 ///
 /// # Errors
 /// [`Cancelled`].
 pub fn visibility(
-    mesh: &Mesh,
-    image: RayImage<'_>,
+    rays: MeshRays<'_>,
     survey: &Survey,
     progress: &mut Progress<'_>,
 ) -> Result<Visibility, Cancelled> {
+    let MeshRays {
+        mesh,
+        image,
+        overlaps,
+    } = rays;
     // Voids and supports do not belong to the surface that profiles measure.
     let model_end = mesh.classes.model_end();
     if survey.is_in_turn {
@@ -48,8 +56,11 @@ pub fn visibility(
             overlaps: false,
         });
     }
-    let mut seen = seen_along(mesh, image, &mut |fraction| progress(0.5 * fraction))?;
     let bodies = bodies(mesh.vertices.len(), &mesh.facets);
+    let mut seen = match overlaps {
+        Some(overlaps) => seen_where_bodies_overlap(mesh, &bodies, overlaps, image.grid()),
+        None => seen_along(mesh, image, &mut |fraction| progress(0.5 * fraction))?,
+    };
     let met_inside: Vec<bool> = seen.iter().map(|seen| seen & INSIDE != 0).collect();
     for seen in &mut seen {
         *seen &= !INSIDE;
@@ -84,11 +95,15 @@ pub fn visibility(
         })
     };
     let mut second = |fraction| progress(0.5 + 0.5 * fraction);
-    let overlaps = is_open || !image.all(is_union, &mut second)?;
+    let are_unions = match overlaps {
+        // Other rays meet no hidden body.
+        Some(overlaps) => overlaps.all(is_union),
+        None => image.all(is_union, &mut second)?,
+    };
     Ok(Visibility {
         hidden,
         partly_inside,
-        overlaps,
+        overlaps: is_open || !are_unions,
     })
 }
 
@@ -107,6 +122,45 @@ fn seen_along(
     };
     image.fold(|| (), look, progress)?;
     Ok(seen.into_iter().map(AtomicU8::into_inner).collect())
+}
+
+/// Marks of the facets that rays meet inside the solid, and of as many others as bodies need: all rays that do not overlap meet
+/// facets on the surface.
+fn seen_where_bodies_overlap(
+    mesh: &Mesh,
+    bodies: &[u32],
+    overlaps: &Overlaps,
+    grid: &Grid,
+) -> Vec<u8> {
+    let model_end = mesh.classes.model_end();
+    let seen: Vec<AtomicU8> = mesh.facets.iter().map(|_| AtomicU8::new(0)).collect();
+    overlaps.each(|hits| look_along(hits, model_end, &seen));
+    let mut seen: Vec<u8> = seen.into_iter().map(AtomicU8::into_inner).collect();
+    let projection = Projection::new(mesh, grid);
+    let met_on_surface = |facets: Vec<u32>| {
+        let met = parallel::map(facets, |facet| {
+            let is_met = overlaps.any_other(&projection, facet, |_| true);
+            is_met.then_some(facet)
+        });
+        met.into_iter().flatten()
+    };
+    let is_inside = |&facet: &u32| seen[facet as usize] == MET | INSIDE;
+    for facet in met_on_surface((0..model_end).filter(is_inside).collect()) {
+        seen[facet as usize] |= ON_SURFACE;
+    }
+    // A body with a facet on the surface is not hidden.
+    let mut body_seen = vec![0u8; mesh.vertices.len()];
+    for (&seen, &body) in seen.iter().zip(bodies) {
+        body_seen[body as usize] |= seen & !INSIDE;
+    }
+    let is_of_such = |&facet: &u32| {
+        let facet = facet as usize;
+        seen[facet] == 0 && body_seen[bodies[facet] as usize] == MET
+    };
+    for facet in met_on_surface((0..model_end).filter(is_of_such).collect()) {
+        seen[facet as usize] = MET | ON_SURFACE;
+    }
+    seen
 }
 
 /// Returns true if those hits of a ray whose facets are below `model_end` enter and leave one body after another, and no body touches

@@ -8,6 +8,7 @@ mod columns;
 mod compensated;
 mod entries;
 mod erased;
+mod facets;
 mod plate;
 mod print_through;
 mod runs;
@@ -91,14 +92,14 @@ impl Masks {
     ///
     /// Cost: linear in the lit stretches of the rows of all layers, times the rows that the compensation spans.
     pub fn compensated(
-        ldi: &Ldi,
+        image: RayImage<'_>,
         plan: &Plan,
         grid: &Grid,
         samples: Samples,
         side: Side,
         compensations: &Compensations,
     ) -> Self {
-        RayImage::Kept(ldi).read(|image| {
+        image.read(|image| {
             let layers = 0..plan.layers();
             Self::compensated_layers(image, plan, layers, grid, samples, side, compensations)
         })

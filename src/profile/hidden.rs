@@ -8,8 +8,10 @@ use std::sync::atomic::AtomicU8;
 use std::sync::atomic::Ordering::Relaxed;
 
 use super::facet_bins::FacetBins;
+use crate::ldi::projection::Projection;
 use crate::ldi::visibility::each_of_model;
-use crate::ldi::{RayImage, Rays};
+use crate::ldi::{Hit, MeshRays, Rays};
+use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 
 /// Facets of a surface that are hidden, as a whole or in part.
@@ -36,7 +38,8 @@ impl Hidden {
     /// Also hides parts of those facets that are `partly_inside`. `creases` has the bins that creases meet on each facet. A part that
     /// no ray meets counts as visible.
     ///
-    /// Cost: a pass over the rays if a facet that is not upright has parts without creases.
+    /// Cost: if a facet that is not upright has parts without creases, a pass over the rays that overlap, or over all if those are not
+    /// known.
     ///
     /// # Errors
     /// [`Cancelled`].
@@ -45,7 +48,7 @@ impl Hidden {
         facet_bins: &FacetBins,
         partly_inside: &[u32],
         mut creases: Vec<(u32, [u32; 2])>,
-        image: RayImage<'_>,
+        rays: MeshRays<'_>,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
         let count = facet_bins.spans.len();
@@ -68,23 +71,38 @@ impl Hidden {
             return Ok(self);
         }
         let seen: Vec<AtomicU8> = parts.spans.iter().map(|_| AtomicU8::new(0)).collect();
-        let look = |(): &mut (), rays: Rays<'_>| {
-            let model_end = rays.classes.model_end();
-            for hits in rays.each() {
-                // Few rays meet a facet in question.
-                if hits.iter().all(|hit| parts.range(hit.facet()).is_empty()) {
-                    continue;
-                }
-                each_of_model(hits, model_end, |hit, is_inside| {
-                    let bin = facet_bins.bins.of(f64::from(hit.z_mm)) as u32;
-                    if let Some(part) = parts.at(hit.facet(), bin) {
-                        let note = if is_inside { INSIDE } else { ON_SURFACE };
-                        seen[part].fetch_or(note, Relaxed);
-                    }
-                });
+        let note = |facet: u32, z_mm: f32, note: u8| {
+            let bin = facet_bins.bins.of(f64::from(z_mm)) as u32;
+            if let Some(part) = parts.at(facet, bin) {
+                seen[part].fetch_or(note, Relaxed);
             }
         };
-        image.fold(|| (), look, progress)?;
+        let model_end = rays.mesh.classes.model_end();
+        let look_along = |hits: &[Hit]| {
+            // Few rays meet a facet in question.
+            if hits.iter().all(|hit| parts.range(hit.facet()).is_empty()) {
+                return;
+            }
+            each_of_model(hits, model_end, |hit, is_inside| {
+                let of = if is_inside { INSIDE } else { ON_SURFACE };
+                note(hit.facet(), hit.z_mm, of);
+            });
+        };
+        if let Some(overlaps) = rays.overlaps {
+            overlaps.each(look_along);
+            let projection = Projection::new(rays.mesh, rays.image.grid());
+            let mut facets: Vec<u32> = parts.each().map(|(facet, _)| facet).collect();
+            facets.dedup();
+            parallel::map(facets, |facet| {
+                overlaps.any_other(&projection, facet, |z_mm| {
+                    note(facet, z_mm, ON_SURFACE);
+                    false
+                });
+            });
+        } else {
+            let look = |(): &mut (), rays: Rays<'_>| rays.each().for_each(look_along);
+            rays.image.fold(|| (), look, progress)?;
+        }
         let hidden = parts.each().zip(seen);
         let hidden =
             hidden.filter_map(|(part, seen)| (seen.into_inner() == INSIDE).then_some(part));

@@ -8,7 +8,7 @@ use super::weighted::Weighted;
 use super::{LayerErrors, Metric, Profile, Shape, Source, section, steepest};
 use crate::grid::Bins;
 use crate::ldi::visibility::{Visibility, visibility};
-use crate::ldi::{RayImage, Survey};
+use crate::ldi::{MeshRays, RayImage, Survey};
 use crate::model::{Mesh, crossing};
 use crate::progress::{Cancelled, Progress};
 
@@ -45,8 +45,7 @@ impl Shapes {
     /// [`Cancelled`].
     pub fn new(
         facet_bins: &FacetBins,
-        mesh: &Mesh,
-        image: RayImage<'_>,
+        rays: MeshRays<'_>,
         survey: &Survey,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
@@ -55,15 +54,15 @@ impl Shapes {
             hidden,
             partly_inside,
             overlaps,
-        } = visibility(mesh, image, survey, &mut first)?;
-        let bins = facet_bins.bins;
+        } = visibility(rays, survey, &mut first)?;
+        let (bins, mesh) = (facet_bins.bins, rays.mesh);
         let hidden = Hidden::whole(hidden);
         let is_seen = |facet: u32| hidden.is_seen(facet as usize);
         let pairs = crossing::pairs(mesh, &partly_inside, is_seen);
         let creases = creases(mesh, bins, &pairs);
         let mut second = |fraction| progress(0.5 + 0.5 * fraction);
         let spans = creases.spans;
-        let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, image, &mut second)?;
+        let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, rays, &mut second)?;
         let value = |facet| facet_bins.n_z_squared[facet];
         let exact = steepest::exact_maxima(facet_bins, &hidden, value);
         let mut cones = cones(mesh, bins);

@@ -7,7 +7,7 @@ use cusp_slicer::format::Format;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Backend, Job, JobOptions, ModelOptions, Options, Planner, Report, Work};
 use cusp_slicer::ldi::visibility::visibility;
-use cusp_slicer::ldi::{Anew, RayImage, Survey, cpu};
+use cusp_slicer::ldi::{MeshRays, RayImage, Survey, cpu};
 use cusp_slicer::prepare::{Hollowing, SupportStrength, Supporting};
 use cusp_slicer::profile::Metric;
 use cusp_slicer::profile::facet_bins::FacetBins;
@@ -259,19 +259,25 @@ fn rays_found_anew_are_those_of_the_ldi() {
         let bins = Bins::of_height(mesh.bounds().size().z, 0.002).unwrap();
         let facet_bins = FacetBins::of(&mesh, bins);
         let told = |image: RayImage<'_>| {
-            let survey = Survey::of(image, &mut silent).unwrap();
+            let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
+            assert_eq!(Survey::of(image, &mut silent).unwrap(), survey);
+            let seen = |overlaps| {
+                let rays = MeshRays {
+                    mesh: &mesh,
+                    image,
+                    overlaps,
+                };
+                visibility(rays, &survey, &mut silent).unwrap()
+            };
+            assert_eq!(seen(None), seen(Some(&overlaps)));
             (
-                visibility(&mesh, image, &survey, &mut silent).unwrap(),
+                seen(None),
                 steepest::sampled(&facet_bins, image, &[], &mut silent).unwrap(),
                 section::sampled(image, bins, &mut silent).unwrap(),
-                survey,
+                (survey, overlaps),
             )
         };
-        let scanned = RayImage::Scanned {
-            mesh: &mesh,
-            grid,
-            leave: Anew,
-        };
+        let scanned = RayImage::Scanned { mesh: &mesh, grid };
         assert_eq!(told(RayImage::Kept(&ldi)), told(scanned));
     }
 }

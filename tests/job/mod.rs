@@ -66,7 +66,7 @@ fn progress_grows_within_a_stage() {
         let mut seen: Vec<(Stage, f64)> = Vec::new();
         let mut slicer = load(&solids::sphere(3.0, 4));
         let many = Options {
-            rays: 1500,
+            rays: 3000,
             metric,
             saliency,
             ..options()

@@ -7,7 +7,7 @@ use super::parts::Layering;
 use super::sampled::Sampled;
 use crate::grid::Bins;
 use crate::job::Error;
-use crate::ldi::LdiError;
+use crate::ldi::{LdiError, MeshRays};
 use crate::model::Mesh;
 use crate::profile::Source;
 use crate::profile::facet_bins::FacetBins;
@@ -55,10 +55,15 @@ impl Measured {
         // There are up to four passes over the rays.
         let mut pass = |number: f64, fraction: f64| progress((number + fraction) / 4.0);
         let mut first = |fraction| pass(0.0, fraction);
-        let mut shapes = match kept {
-            Some(kept) => kept.shapes.clone(),
-            None => Shapes::new(&facet_bins, mesh, image, &of.survey, &mut first)
-                .map_err(LdiError::from)?,
+        let mut shapes = if let Some(kept) = kept {
+            kept.shapes.clone()
+        } else {
+            let rays = MeshRays {
+                mesh,
+                image,
+                overlaps: of.overlaps().ok(),
+            };
+            Shapes::new(&facet_bins, rays, &of.survey, &mut first).map_err(LdiError::from)?
         };
         if !has_rays(&shapes) {
             let mut second = |fraction| pass(1.0, fraction);

@@ -140,6 +140,13 @@ impl Output {
 }
 
 impl Layering {
+    /// Returns true if stages after the survey pass over all rays, several times for each plan.
+    pub fn needs_rays(&self) -> bool {
+        self.source == Source::Sampled
+            || !self.compensation.is_none()
+            || self.resin.print_through.is_some()
+    }
+
     /// [`Sampling::wider_mm`] of a model with or without supports.
     pub fn support_wider_mm(&self, has_supports: bool) -> f64 {
         if has_supports {

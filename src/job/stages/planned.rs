@@ -10,14 +10,14 @@ use super::sampled::Sampled;
 use crate::cure::Cure;
 use crate::inspect::{self, Finding};
 use crate::job::Error;
-use crate::ldi::{LdiError, cpu};
+use crate::ldi::LdiError;
 use crate::mask::{
     CompensatedSlabs, Compensations, Masks, PrintThroughReport, Raise, RunSource, Side, SlabMasks,
     Window, erased_mm2, print_through,
 };
 use crate::plan::Plan;
 use crate::plan::uniform::UniformLayers;
-use crate::progress::{Cancelled, Progress, silent};
+use crate::progress::{Cancelled, Progress};
 use crate::warning::Warning;
 
 /// The most plans until planes at flats that face down stay.
@@ -214,12 +214,21 @@ impl Planned {
     /// [`Error::MemoryBound`] if there is no LDI.
     pub fn masks(&self, model: usize, side: Side) -> Result<Masks, Error> {
         let sampled = self.models[model].sampled();
-        let Sampled { grid, sampling, .. } = sampled;
-        let (ldi, samples) = (sampled.ldi()?, sampling.samples);
+        let Sampled {
+            grid,
+            rays,
+            sampling,
+            ..
+        } = sampled;
+        let (plan, samples, overlaps) = (&self.plan, sampling.samples, sampled.overlaps()?);
         Ok(match &self.compensations {
-            None => Masks::new(ldi, &self.plan, grid, samples, side),
+            None => {
+                let grids = [rays, grid];
+                Masks::of_facets(sampled.mesh(), grids, overlaps, plan, samples, side)
+            }
             Some(compensations) => {
-                Masks::compensated(ldi, &self.plan, grid, samples, side, compensations)
+                let image = sampled.image();
+                Masks::compensated(image, plan, grid, samples, side, compensations)
             }
         })
     }
@@ -297,8 +306,8 @@ impl Planned {
         };
         match sampled.bound() {
             None => {
-                let ldi = cpu::sample(&solid, rays, &mut silent)?;
-                let masks = Masks::new(&ldi, plan, grid, samples, side);
+                let grids = [rays, grid];
+                let masks = Masks::of_mesh(&solid, grids, plan, samples, side)?;
                 retain(&masks, &masks.window)?;
             }
             Some(Bound { slab_bytes, .. }) => {

@@ -14,7 +14,7 @@ use crate::grid::Grid;
 use crate::inspect::{Held, Limits};
 use crate::job::{Backend, Error, GpuMethod, Timings};
 use crate::ldi::gpu::{self, Gpu};
-use crate::ldi::{GpuFault, Ldi, LdiError, RayImage, Survey, cpu, missed};
+use crate::ldi::{GpuFault, Ldi, LdiError, Overlaps, RayImage, Survey, cpu, missed};
 use crate::model::Mesh;
 use crate::progress::{Progress, silent};
 use crate::warning::Warning;
@@ -39,25 +39,15 @@ pub struct Sampled {
     pub warnings: Vec<Warning>,
 }
 
-/// The hits of all rays.
+/// The hits that are kept; all others are found again when they are needed.
 #[derive(Debug)]
 enum Hits {
-    Kept(Ldi),
-    /// Hits that do not fit into memory, and are found again when they are needed.
-    Anew(Bound),
-}
-
-impl Hits {
-    fn image<'a>(&'a self, mesh: &'a Mesh, grid: Grid) -> RayImage<'a> {
-        match self {
-            Self::Kept(ldi) => RayImage::Kept(ldi),
-            Self::Anew(bound) => RayImage::Scanned {
-                mesh,
-                grid,
-                leave: bound.allowed.leave,
-            },
-        }
-    }
+    /// Those of the rays along which bodies overlap.
+    OfOverlaps(Overlaps),
+    /// Those of all rays, for several passes over them.
+    All(Overlaps, Ldi),
+    /// None, since they do not fit into memory.
+    None(Bound),
 }
 
 /// A GPU that sampled a model.
@@ -112,7 +102,7 @@ impl Sampler {
         }
     }
 
-    /// Samples a model that is prepared. If the GPU fails, the CPU is used instead, unless the backend requires the GPU.
+    /// Samples a model that is prepared, and keeps the hits of all rays if `keeps_rays` is set and they fit. If the GPU fails, the CPU is used instead, unless the backend requires the GPU.
     ///
     /// # Errors
     /// [`Error::Grid`], [`Error::Ldi`], [`Error::MemoryBound`], [`Error::TimeBound`].
@@ -120,6 +110,7 @@ impl Sampler {
         &mut self,
         sampling: &Sampling,
         prepared: Arc<Prepared>,
+        keeps_rays: bool,
         timings: &mut Timings,
         progress: &mut Progress<'_>,
     ) -> Result<Sampled, Error> {
@@ -148,20 +139,28 @@ impl Sampler {
                 Err(error) => warnings.extend(cpu_instead(&error)),
             }
         }
-        let (hits, gpu) = match (on_gpu, bound) {
-            (Some((ldi, gpu)), _) => (Hits::Kept(ldi), Some(gpu)),
-            (None, Some(bound)) => (Hits::Anew(bound), None),
+        let (ldi, gpu) = match on_gpu {
+            Some((ldi, gpu)) => (Some(ldi), Some(gpu)),
+            None if bound.is_none() && keeps_rays => {
+                (Some(cpu::sample(mesh, &rays, progress)?), None)
+            }
+            None => (None, None),
+        };
+        let (survey, hits) = match (ldi, bound) {
+            (None, Some(bound)) => {
+                let scanned = RayImage::Scanned { mesh, grid: rays };
+                (Survey::of(scanned, progress)?, Hits::None(bound))
+            }
             (None, None) => {
-                let ldi = cpu::sample(mesh, &rays, progress)?;
-                (Hits::Kept(ldi), None)
+                let scanned = RayImage::Scanned { mesh, grid: rays };
+                let (survey, overlaps) = Survey::with_overlaps(scanned, progress)?;
+                (survey, Hits::OfOverlaps(overlaps))
+            }
+            (Some(ldi), _) => {
+                let (survey, overlaps) = Survey::with_overlaps(RayImage::Kept(&ldi), &mut silent)?;
+                (survey, Hits::All(overlaps, ldi))
             }
         };
-        let image = hits.image(mesh, rays);
-        let survey = match &hits {
-            Hits::Kept(_) => Survey::of(image, &mut silent),
-            Hits::Anew(_) => Survey::of(image, progress),
-        };
-        let survey = survey.map_err(LdiError::from)?;
         if survey.hits == 0 {
             return Err(LdiError::NoHits {
                 pitch_mm: grid.pitch_mm,
@@ -245,25 +244,36 @@ impl Sampler {
 impl Sampled {
     /// The rays.
     pub fn image(&self) -> RayImage<'_> {
-        self.hits.image(self.mesh(), self.rays)
-    }
-
-    /// The LDI.
-    ///
-    /// # Errors
-    /// [`Error::MemoryBound`] if it does not fit into the memory that may be taken.
-    pub fn ldi(&self) -> Result<&Ldi, Error> {
         match &self.hits {
-            Hits::Kept(ldi) => Ok(ldi),
-            Hits::Anew(bound) => Err(bound.error()),
+            Hits::All(_, ldi) => RayImage::Kept(ldi),
+            Hits::OfOverlaps(_) | Hits::None(_) => RayImage::Scanned {
+                mesh: self.mesh(),
+                grid: self.rays,
+            },
         }
     }
 
-    /// Memory bound that no LDI fits into; `None` if the hits are kept.
+    /// Returns true if passes over all rays find them in memory, or would not with any other choice.
+    pub fn keeps_rays(&self) -> bool {
+        !matches!(self.hits, Hits::OfOverlaps(_))
+    }
+
+    /// The rays along which bodies overlap.
+    ///
+    /// # Errors
+    /// [`Error::MemoryBound`] if their hits may not fit into memory.
+    pub fn overlaps(&self) -> Result<&Overlaps, Error> {
+        match &self.hits {
+            Hits::OfOverlaps(overlaps) | Hits::All(overlaps, _) => Ok(overlaps),
+            Hits::None(bound) => Err(bound.error()),
+        }
+    }
+
+    /// Memory bound that hits and masks may not fit into; `None` if they are kept.
     pub fn bound(&self) -> Option<Bound> {
         match self.hits {
-            Hits::Kept(_) => None,
-            Hits::Anew(bound) => Some(bound),
+            Hits::OfOverlaps(_) | Hits::All(..) => None,
+            Hits::None(bound) => Some(bound),
         }
     }
 
