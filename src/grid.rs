@@ -239,6 +239,18 @@ impl Grid {
         Ok(())
     }
 
+    /// A grid of larger pixels over the same place, each as wide and deep as `times` of these. The last ones may go beyond it.
+    #[must_use]
+    pub fn coarsened(&self, times: u32) -> Self {
+        Self {
+            width: self.width.div_ceil(times),
+            height: self.height.div_ceil(times),
+            pitch_mm: self.pitch_mm * f64::from(times),
+            pitch_y_mm: self.pitch_y_mm * f64::from(times),
+            ..*self
+        }
+    }
+
     /// The part of the grid that covers the model, with a margin of a pixel for rounding. No ray outside it meets the
     /// model.
     #[must_use]

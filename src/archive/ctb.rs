@@ -90,7 +90,7 @@ impl Encoder for Ctb {
 fn head(job: &PrintJob<'_>) -> Vec<u8> {
     let PrintJob { screen, resin, .. } = *job;
     let machine = job.printer.map_or("", Printer::machine);
-    let look = (job.look)();
+    let look = (job.look)(PREVIEWS[0][0]);
     let previews = PREVIEWS.map(|size| preview(&look, size));
     let large_at = HEADER_BYTES;
     let small_at = large_at + PREVIEW_BYTES + previews[0].len() as u32;

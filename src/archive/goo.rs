@@ -101,7 +101,7 @@ impl Moves {
 
 fn header(job: &PrintJob<'_>, moves: &Moves, order: ByteOrder) -> Vec<u8> {
     let PrintJob { screen, resin, .. } = *job;
-    let look = (job.look)();
+    let look = (job.look)(PREVIEWS[1]);
     let usual_mm = job.usual_mm();
     let mut bytes = Vec::with_capacity(HEADER_BYTES as usize);
     let mut fields = Fields::new(&mut bytes, order);

@@ -271,8 +271,8 @@ pub struct PrintJob<'a> {
     pub resin_ml: f64,
     /// The printer, if the job names one.
     pub printer: Option<&'a Printer>,
-    /// Draws the model, for previews.
-    pub look: &'a dyn Fn() -> PreviewScene,
+    /// Draws the model, for previews whose longest side has this many pixels.
+    pub look: &'a dyn Fn(u32) -> PreviewScene,
     /// Finds the best uniform layers within tolerance.
     pub best_uniform: &'a dyn Fn() -> Option<UniformLayers>,
     /// Makes an object that describes the whole job, for formats of our own.

@@ -324,7 +324,7 @@ fn write_preview(
     fields.u32(size[0]);
     fields.bytes(&mark);
     fields.u32(size[1]);
-    for grey in (job.look)().greys(size) {
+    for grey in (job.look)(size[0].max(size[1])).greys(size) {
         fields.u16(rgb565(grey));
     }
 }

@@ -2,6 +2,7 @@
 
 use super::png::{self, Depth};
 use super::runs::RunWriter;
+use crate::grid::Grid;
 use crate::ldi::{Hit, RayImage, Rays, printed_ranges};
 use crate::model::Mesh;
 use crate::progress::silent;
@@ -19,27 +20,24 @@ pub struct PreviewScene {
 
 /// The PNG filter that stores each pixel as its difference from the one to the left.
 const LEFT: u8 = 1;
-/// Maximum pixels of the longer side: more than any preview has.
-const LONGEST: u32 = 1024;
 
-/// A model in the picture, and where it stands.
-#[derive(Debug, Clone, Copy)]
+/// A model in the picture.
+#[derive(Debug, Clone)]
 pub struct PlacedMesh<'a> {
-    /// The mesh from which the rays were sampled.
+    /// The mesh.
     pub mesh: &'a Mesh,
-    /// Its rays.
-    pub image: RayImage<'a>,
-    /// Column and row of its first ray among those of the whole plate.
-    pub first_ray: [i64; 2],
+    /// Rays that cover it.
+    pub rays: Grid,
+    /// For each copy, column and row of the first ray among those of the whole plate.
+    pub first_rays: Vec<[i64; 2]>,
 }
 
 impl PlacedMesh<'_> {
-    /// Its first column and row, and those after the last.
-    fn rays(&self) -> [[i64; 2]; 2] {
-        let grid = self.image.grid();
-        let size = [grid.width, grid.height].map(i64::from);
-        let last = [0, 1].map(|axis| self.first_ray[axis] + size[axis]);
-        [self.first_ray, last]
+    /// For each copy, its first column and row, and those after the last.
+    fn ends(&self) -> impl Iterator<Item = [[i64; 2]; 2]> {
+        let size = [self.rays.width, self.rays.height].map(i64::from);
+        let firsts = self.first_rays.iter();
+        firsts.map(move |&first| [first, [0, 1].map(|axis| first[axis] + size[axis])])
     }
 
     /// The brightness where a ray with these hits meets it; 0 if it does not.
@@ -55,66 +53,13 @@ impl PlacedMesh<'_> {
         let height = f64::from(top.z_mm) / top_mm;
         (60.0 + 195.0 * light * (0.6 + 0.4 * height)).min(255.0) as u8
     }
-
-    /// The rows of a picture with this many columns that it covers: the place of the first pixel, and the brightness of each.
-    fn seen_on(&self, raster: &Raster, columns: usize, top_mm: f64) -> Vec<(usize, Vec<u8>)> {
-        let grid = self.image.grid();
-        let [left, above] = self.first_ray;
-        let look = |seen: &mut Vec<(usize, Vec<u8>)>, rays: Rays<'_>| {
-            let end_row = rays.first_row + rays.count() as u32 / grid.width;
-            for (row, y) in raster.along(1, above, rays.first_row..end_row) {
-                let first = (row - rays.first_row) * grid.width;
-                let mut along = raster.along(0, left, 0..grid.width).peekable();
-                let Some(&(_, x)) = along.peek() else {
-                    continue;
-                };
-                let values = along.map(|(column, _)| {
-                    self.brightness(rays.ray((first + column) as usize), top_mm)
-                });
-                seen.push((y * columns + x, values.collect()));
-            }
-        };
-        let seen = self.image.fold(Vec::new, look, &mut silent);
-        seen.unwrap_or_default().into_iter().flatten().collect()
-    }
-}
-
-/// The rays that are in the picture: every `step`th column and row of the plate.
-struct Raster {
-    /// The first column and row of the plate.
-    first: [i64; 2],
-    step: u32,
-}
-
-impl Raster {
-    /// The rays of a copy along an axis that are in the picture, from the copy's first one: each with its place there.
-    fn along(
-        &self,
-        axis: usize,
-        first_ray: i64,
-        rays: std::ops::Range<u32>,
-    ) -> impl Iterator<Item = (u32, usize)> {
-        let (offset, step) = ((first_ray - self.first[axis]) as u32, self.step);
-        let start = (offset + rays.start).next_multiple_of(step);
-        let places = (start..offset + rays.end).step_by(step as usize);
-        places.map(move |ray| (ray - offset, (ray / step) as usize))
-    }
 }
 
 impl PreviewScene {
-    /// Looks down along the rays of a mesh.
-    pub fn new(mesh: &Mesh, image: RayImage<'_>) -> Self {
-        Self::of_copies(&[PlacedMesh {
-            mesh,
-            image,
-            first_ray: [0; 2],
-        }])
-    }
-
-    /// Looks down at several models, of which there must be at least one. Their rays are equally far apart.
-    pub fn of_copies(copies: &[PlacedMesh<'_>]) -> Self {
-        let grid = copies[0].image.grid();
-        let all = copies.iter().map(PlacedMesh::rays);
+    /// Looks down at models, of which there must be at least one, along the fewest rays for a picture with this longer side in pixels. The
+    /// rays of all models are equally far apart.
+    pub fn new(models: &[PlacedMesh<'_>], longest: u32) -> Self {
+        let all = models.iter().flat_map(PlacedMesh::ends);
         let all = all.reduce(|[first, last], [start, end]| {
             [
                 [0, 1].map(|axis| first[axis].min(start[axis])),
@@ -123,19 +68,34 @@ impl PreviewScene {
         });
         let [first, last] = all.unwrap_or_default();
         let [width, height] = [0, 1].map(|axis| (last[axis] - first[axis]) as u32);
-        let step = width.max(height).div_ceil(LONGEST).max(1);
+        let step = width.max(height).div_ceil(longest).max(1);
         let [columns, rows] = [width, height].map(|side| side.div_ceil(step) as usize);
-        let raster = Raster { first, step };
-        let tops_mm = copies.iter().map(|copy| copy.mesh.bounds().max.z);
+        let tops_mm = models.iter().map(|it| it.mesh.bounds().max.z);
         let top_mm = tops_mm.fold(f64::MIN_POSITIVE, f64::max);
         let mut brightness = vec![0u8; columns * rows];
-        for copy in copies {
-            for (place, values) in copy.seen_on(&raster, columns, top_mm) {
-                for (pixel, value) in brightness[place..].iter_mut().zip(values) {
-                    *pixel = value.max(*pixel);
+        for model in models {
+            let rays = model.rays.coarsened(step);
+            let look = |values: &mut Vec<u8>, rays: Rays<'_>| {
+                values.extend(rays.each().map(|hits| model.brightness(hits, top_mm)));
+            };
+            let image = RayImage::Scanned {
+                mesh: model.mesh,
+                grid: rays,
+            };
+            let parts = image.fold(Vec::new, look, &mut silent);
+            let values = parts.unwrap_or_default().concat();
+            for first_ray in &model.first_rays {
+                let [x, y] =
+                    [0, 1].map(|axis| (first_ray[axis] - first[axis]) as usize / step as usize);
+                let picture = brightness.chunks_mut(columns).skip(y);
+                for (row, values) in picture.zip(values.chunks(rays.width as usize)) {
+                    for (pixel, &value) in row[x..].iter_mut().zip(values) {
+                        *pixel = value.max(*pixel);
+                    }
                 }
             }
         }
+        let grid = &models[0].rays;
         Self {
             width: columns,
             height: rows,

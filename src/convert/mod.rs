@@ -312,7 +312,7 @@ impl<'a> Conversion<'a> {
             transition_layers: self.transition_layers,
             resin_ml: self.volume_ml,
             printer: self.printer(),
-            look: &|| self.look(),
+            look: &|_| self.look(),
             best_uniform: &|| None,
             manifest: &|| self.manifest(),
         };

@@ -238,7 +238,7 @@ impl Plate {
             resin_ml: report.resin_ml,
             printer: output.printer.as_deref(),
             best_uniform: &|| planned.best_uniform(),
-            look: &|| preview_scene(planned, &self.offsets),
+            look: &|longest| preview_scene(planned, &self.offsets, longest),
             manifest: &|| report.manifest(),
         };
         Ok(archive::write(output.format, &job, writer, progress)?)
@@ -292,22 +292,24 @@ fn seen_from(side: Side, offsets: &[[i32; 2]]) -> Vec<[i32; 2]> {
     }
 }
 
-/// The plate seen from above.
-fn preview_scene(planned: &Planned, offsets: &[Vec<[i32; 2]>]) -> PreviewScene {
-    let mut copies = Vec::new();
-    for (model, offsets) in planned.models.iter().zip(offsets) {
+/// The plate seen from above, as a picture of this longer side.
+fn preview_scene(planned: &Planned, offsets: &[Vec<[i32; 2]>], longest: u32) -> PreviewScene {
+    let models = planned.models.iter().zip(offsets).map(|(model, offsets)| {
         let sampled = model.sampled();
         let rays = sampled.sampling.samples.rays();
         let first = sampled.grid.refined(rays).offset_of(&sampled.rays);
-        copies.extend(offsets.iter().map(|offset| PlacedMesh {
-            mesh: sampled.mesh(),
-            image: sampled.image(),
-            first_ray: [0, 1].map(|axis| {
+        let first_rays = offsets.iter().map(|offset| {
+            [0, 1].map(|axis| {
                 i64::from(first[axis]) + i64::from(offset[axis]) * i64::from(rays[axis])
-            }),
-        }));
-    }
-    PreviewScene::of_copies(&copies)
+            })
+        });
+        PlacedMesh {
+            mesh: sampled.mesh(),
+            rays: sampled.rays,
+            first_rays: first_rays.collect(),
+        }
+    });
+    PreviewScene::new(&models.collect::<Vec<_>>(), longest)
 }
 
 /// The share of the stage of masks that encoding takes, before the file is written.

@@ -43,7 +43,7 @@ impl Container for Anycubic {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)();
+        let look = (job.look)(PREVIEWS[2][0]);
         let mut settings = Settings::new(job, layers, Value::from);
         let suffix = job.printer.and_then(|printer| printer.reads.first());
         settings.set(

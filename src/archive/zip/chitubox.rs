@@ -15,7 +15,7 @@ impl Container for Chitubox {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)();
+        let look = (job.look)(954);
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
             ("preview.png".to_owned(), look.png([954, 850])),

@@ -36,7 +36,7 @@ impl Container for Nanodlp {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)();
+        let look = (job.look)(PREVIEW[0]);
         let mut settings = Settings::new(job, layers, |number| json!(number));
         let resin = job.resin;
         for (name, number) in [

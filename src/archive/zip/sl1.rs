@@ -16,7 +16,7 @@ impl Container for Sl1 {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)();
+        let look = (job.look)(800);
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
             (

@@ -16,7 +16,7 @@ impl Container for Uvj {
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)();
+        let look = (job.look)(800);
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
             ("config.json".to_owned(), config),

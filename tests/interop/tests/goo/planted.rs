@@ -1,8 +1,7 @@
 //! Masks that no model gives: runs of every length at which chunks change, on the largest screens, written without slicing.
 
-use cusp_slicer::archive::{self, Layer, MaskSource, PreviewScene, PrintJob, Screen};
+use cusp_slicer::archive::{self, Layer, MaskSource, PlacedMesh, PreviewScene, PrintJob, Screen};
 use cusp_slicer::format::Format;
-use cusp_slicer::ldi::RayImage;
 use cusp_slicer::mask::{LayerRuns, Run, RunReader, RunSource};
 use cusp_slicer::progress::silent;
 use cusp_slicer::resin::Resin;
@@ -57,6 +56,11 @@ fn cut(mask: &Runs, width: u32) -> Vec<Run> {
 /// Writes these masks, and compares what both crates read.
 fn check(pixels: [u32; 2], masks: Vec<Runs>) {
     let (mesh, ldi) = sample(&solids::cube(1.0), 10);
+    let placed = PlacedMesh {
+        mesh: &mesh,
+        rays: ldi.grid,
+        first_rays: vec![[0; 2]],
+    };
     let layers: Vec<Layer> = (1..=masks.len())
         .map(|layer| Layer {
             z_mm: 0.05 * layer as f64,
@@ -83,7 +87,7 @@ fn check(pixels: [u32; 2], masks: Vec<Runs>) {
         resin_ml: 1.0,
         printer: None,
         best_uniform: &|| None,
-        look: &|| PreviewScene::new(&mesh, RayImage::Kept(&ldi)),
+        look: &|longest| PreviewScene::new(std::slice::from_ref(&placed), longest),
         manifest: &|| unreachable!("the format has none"),
     };
     let bytes = archive::write(Format::Goo, &job, Vec::new(), &mut silent).unwrap();
