@@ -2,12 +2,9 @@
 
 use std::ops::ControlFlow;
 
-use crate::common::{assert_near, on_plate, oracle, sample, solids};
+use crate::common::{assert_near, on_plate, oracle, sample, seen_along, solids};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::ldi::visibility::visibility;
-use cusp_slicer::ldi::{
-    Hit, Ldi, LdiError, MeshRays, RayImage, Survey, cpu, model_ranges, printed_ranges,
-};
+use cusp_slicer::ldi::{Hit, Ldi, LdiError, RayImage, Survey, cpu, model_ranges, printed_ranges};
 use cusp_slicer::model::{FacetClass, FacetClasses, Mesh};
 use cusp_slicer::profile::facet_bins::FacetBins;
 use cusp_slicer::profile::section;
@@ -407,17 +404,7 @@ fn voids_are_left_out_of_the_model_and_supports_are_not() {
     assert_eq!(areas(&ldi), areas(&alone));
     let facet_bins = |mesh: &Mesh| FacetBins::of(mesh, bins);
     assert_eq!(facet_bins(&joined).spans, facet_bins(&model).spans);
-    let seen = |mesh: &Mesh, ldi: &Ldi| {
-        let image = RayImage::Kept(ldi);
-        let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
-        let rays = MeshRays {
-            mesh,
-            image,
-            overlaps: Some(&overlaps),
-        };
-        visibility(rays, &survey, &mut silent).unwrap()
-    };
-    assert_eq!(seen(&joined, &ldi), seen(&model, &alone));
+    assert_eq!(seen_along(&joined, &ldi), seen_along(&model, &alone));
     let printed_mm3 = survey(&ldi).solid.volume_mm3;
     assert_near(printed_mm3, 1000.0 - 216.0 + 8.0, 1e-6);
 }

@@ -1,9 +1,9 @@
 //! Profiles of solids, sampled and exact, against closed forms and naive oracles.
 
-use crate::common::{assert_near, on_plate, oracle, sample, solids};
+use crate::common::{assert_near, on_plate, oracle, sample, seen_along, solids};
 use cusp_slicer::grid::{Bins, Grid};
-use cusp_slicer::ldi::visibility::{Visibility, visibility};
-use cusp_slicer::ldi::{Ldi, MeshRays, RayImage, Survey, cpu};
+use cusp_slicer::ldi::visibility::Visibility;
+use cusp_slicer::ldi::{Ldi, RayImage, cpu};
 use cusp_slicer::model::Mesh;
 use cusp_slicer::profile::facet_bins::{FacetBins, Flat};
 use cusp_slicer::profile::snap_planes::{Surface, snap_planes};
@@ -49,17 +49,6 @@ fn densities(triangles: &solids::Triangles, bin_mm: f64, metric: Metric) -> [Vec
 fn seen(mesh: &Mesh, rays: u32) -> Visibility {
     let grid = Grid::around(&mesh.bounds(), rays).unwrap();
     seen_along(mesh, &cpu::sample(mesh, &grid, &mut silent).unwrap())
-}
-
-fn seen_along(mesh: &Mesh, ldi: &Ldi) -> Visibility {
-    let image = RayImage::Kept(ldi);
-    let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
-    let rays = MeshRays {
-        mesh,
-        image,
-        overlaps: Some(&overlaps),
-    };
-    visibility(rays, &survey, &mut silent).unwrap()
 }
 
 /// The largest `n_z²` of each bin, along the rays.

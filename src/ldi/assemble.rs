@@ -128,20 +128,15 @@ impl<'a> RecentFacets<'a> {
 pub(super) fn sort_rays(offsets: &[u32], hits: &mut [Hit]) {
     let base = offsets[0];
     for ray in offsets.windows(2) {
-        sort_ray(&mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize]);
-    }
-}
-
-/// Sorts the hits of a ray.
-#[inline]
-pub(super) fn sort_ray(hits: &mut [Hit]) {
-    match hits {
-        [] | [_] => {}
-        [low, high] => {
-            if low.key() > high.key() {
-                std::mem::swap(low, high);
+        let ray = &mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize];
+        match ray {
+            [] | [_] => {}
+            [low, high] => {
+                if low.key() > high.key() {
+                    std::mem::swap(low, high);
+                }
             }
+            _ => ray.sort_unstable_by_key(|hit| hit.key()),
         }
-        _ => hits.sort_unstable_by_key(|hit| hit.key()),
     }
 }

@@ -171,14 +171,7 @@ impl<'a> Scan<'a> {
         facets: impl Iterator<Item = u32> + Clone,
     ) -> Self {
         let bands = grid.height.div_ceil(BAND_ROWS) as usize;
-        let bands = FacetLists::new(bands, facets, |facet| {
-            let rows = projection.rows(facet as usize);
-            if rows.is_empty() {
-                0..0
-            } else {
-                (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize
-            }
-        });
+        let bands = projection.in_bands(bands, facets, |row| (row / BAND_ROWS) as usize);
         Self {
             projection,
             grid: *grid,
@@ -194,29 +187,17 @@ impl<'a> Scan<'a> {
 
     /// The rays of some rows.
     pub(super) fn of_rows(&self, rows: Range<u32>) -> ScannedRays {
-        let part_of = |start: u32| {
-            let band = (start / BAND_ROWS) as usize;
-            self.part(band, start..self.rows(band).end.min(rows.end), None)
-        };
-        let mut all = part_of(rows.start);
-        let width = self.grid.width as usize;
-        let mut start = rows.start + (all.rays().count() / width) as u32;
-        while start < rows.end {
-            let part = part_of(start);
-            start += (part.rays().count() / width) as u32;
-            all.append(part.rays());
-        }
-        all
+        self.scanned(rows, None)
     }
 
     /// The rays of some rows with their hits in a slab, up to the end of a band: as many of the rows as are returned.
     pub fn first_of(&self, rows: Range<u32>, slab: Slab) -> ScannedRays {
         let band = (rows.start / BAND_ROWS) as usize;
         let end = self.rows(band).end.min(rows.end);
-        self.part(band, rows.start..end, Some(slab))
+        self.scanned(rows.start..end, Some(slab))
     }
 
-    fn part(&self, band: usize, rows: Range<u32>, slab: Option<Slab>) -> ScannedRays {
+    fn scanned(&self, rows: Range<u32>, slab: Option<Slab>) -> ScannedRays {
         let mut all = ScannedRays {
             first_row: rows.start,
             width: self.grid.width,
@@ -225,29 +206,28 @@ impl<'a> Scan<'a> {
             classes: self.classes,
         };
         all.offsets.push(0);
-        self.each_row(band, rows, slab, &mut |row| all.append(row));
+        for band in (rows.start / BAND_ROWS) as usize..rows.end.div_ceil(BAND_ROWS) as usize {
+            let of_band = self.rows(band);
+            let rows = rows.start.max(of_band.start)..rows.end.min(of_band.end);
+            self.each_row(rows, slab, &mut |row| all.append(row));
+        }
         all
     }
 
     /// Calls `take` with the rays of each of some rows of a band, whose hits are found and sorted in the cache.
-    fn each_row(
+    pub(super) fn each_row(
         &self,
-        band: usize,
         rows: Range<u32>,
         slab: Option<Slab>,
         take: &mut dyn FnMut(Rays<'_>),
     ) {
         let mut offsets = vec![0u32; self.grid.width as usize + 1];
         let mut hits: Vec<Hit> = Vec::new();
-        for (first_row, spans) in rows.clone().zip(self.spans(band, rows, slab)) {
+        for (first_row, spans) in rows.clone().zip(self.spans(rows, slab)) {
             offsets.fill(0);
             let starts = &mut offsets[1..];
             for span in &spans {
-                let [from, to] = span.columns.map(|column| column as usize);
-                starts[from] = starts[from].wrapping_add(1);
-                if let Some(after) = starts.get_mut(to) {
-                    *after = after.wrapping_sub(1);
-                }
+                add_span(starts, span.columns);
             }
             // Starts are stored one slot ahead: filling then advances each to where it belongs.
             let (mut open, mut total) = (0u32, 0);
@@ -276,14 +256,9 @@ impl<'a> Scan<'a> {
         }
     }
 
-    /// Calls `take` with the rays of each row of a band.
-    pub(super) fn each_row_of(&self, band: usize, take: &mut dyn FnMut(Rays<'_>)) {
-        self.each_row(band, self.rows(band), None, take);
-    }
-
     /// The spans of facets in each of some rows of a band: with a slab, only their pixels in it.
-    fn spans(&self, band: usize, rows: Range<u32>, slab: Option<Slab>) -> Vec<Vec<FacetSpan>> {
-        let facets = self.bands.of(band);
+    fn spans(&self, rows: Range<u32>, slab: Option<Slab>) -> Vec<Vec<FacetSpan>> {
+        let facets = self.bands.of((rows.start / BAND_ROWS) as usize);
         let mut spans: Vec<Vec<FacetSpan>> = Vec::new();
         spans.resize_with(rows.len(), Vec::new);
         for &index in facets {
@@ -319,11 +294,10 @@ impl<'a> Scan<'a> {
         let rows = self.rows(band);
         let mut add = |row: u32, columns: Range<u32>| {
             let start = (row - rows.start) as usize * width;
-            let counts = &mut counts[start..start + width];
-            counts[columns.start as usize] = counts[columns.start as usize].wrapping_add(1);
-            if let Some(after) = counts.get_mut(columns.end as usize) {
-                *after = after.wrapping_sub(1);
-            }
+            add_span(
+                &mut counts[start..start + width],
+                [columns.start, columns.end],
+            );
         };
         for &facet in self.bands.of(band) {
             if let Some(outline) = self.projection.outline(facet as usize) {
@@ -358,5 +332,15 @@ impl<'a> Scan<'a> {
                 }
             });
         }
+    }
+}
+
+/// Adds the differences at the ends of a span to those of the counts of a row.
+#[inline]
+fn add_span(differences: &mut [u32], [from, to]: [u32; 2]) {
+    let first = &mut differences[from as usize];
+    *first = first.wrapping_add(1);
+    if let Some(after) = differences.get_mut(to as usize) {
+        *after = after.wrapping_sub(1);
     }
 }

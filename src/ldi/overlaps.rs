@@ -137,7 +137,7 @@ impl Part {
     }
 }
 
-/// The first marked column from one on, or `end` if there is none before it.
+/// The first marked column at or after `from`, or `end` if there is none before `end`.
 #[inline]
 fn next_marked(marks: &[u64], from: u32, end: u32) -> u32 {
     let first = from / 64;

@@ -11,7 +11,7 @@ use std::ops::Range;
 use glam::{DVec2, Vec3};
 
 use crate::grid::Grid;
-use crate::model::Mesh;
+use crate::model::{FacetLists, Mesh};
 
 /// Lattice steps per pixel.
 pub const STEPS: i64 = 256;
@@ -84,6 +84,23 @@ impl<'a> Projection<'a> {
     /// The outline of a facet, or `None` if it is edge-on to the rays after snapping.
     pub fn outline(&self, facet: usize) -> Option<Outline> {
         Outline::of(self.corners(facet).map(|corner| corner.map(i64::from)))
+    }
+
+    /// Facets in bands of rows, given the band of each row.
+    pub(crate) fn in_bands(
+        &self,
+        bands: usize,
+        facets: impl Iterator<Item = u32> + Clone,
+        band_of: impl Fn(u32) -> usize,
+    ) -> FacetLists {
+        FacetLists::new(bands, facets, |facet| {
+            let rows = self.rows(facet as usize);
+            if rows.is_empty() {
+                0..0
+            } else {
+                band_of(rows.start)..band_of(rows.end - 1) + 1
+            }
+        })
     }
 
     /// The rows whose pixel centres a facet may cover.

@@ -63,7 +63,7 @@ impl<'a> Rays<'a> {
 pub struct Anew;
 
 /// Permission to work without hits and masks in memory, which browsers never have: the type has no values, so that code is not
-/// compiled and the module stays 20 KB smaller.
+/// compiled.
 #[cfg(target_arch = "wasm32")]
 #[derive(Debug, Clone, Copy, PartialEq, Eq)]
 pub enum Anew {}
@@ -144,12 +144,11 @@ impl RayRows<'_> {
                 for band in start + round..(start + round + round_bands).min(end) {
                     // One instance of `step` for both sources keeps the module of browsers small.
                     let take: &mut dyn FnMut(Rays<'_>) = &mut |rays| step(&mut value, rays);
+                    let first_row = band as u32 * BAND_ROWS;
+                    let rows = first_row..(first_row + BAND_ROWS).min(height);
                     match &self.source {
-                        Bands::Kept(ldi) => {
-                            let first_row = band as u32 * BAND_ROWS;
-                            take(ldi.rows(first_row..(first_row + BAND_ROWS).min(height)));
-                        }
-                        Bands::Scanned(scan) => scan.each_row_of(band, take),
+                        Bands::Kept(ldi) => take(ldi.rows(rows)),
+                        Bands::Scanned(scan) => scan.each_row(rows, None, take),
                     }
                 }
                 (start, value)

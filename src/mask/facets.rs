@@ -5,13 +5,14 @@
 
 use std::ops::Range;
 
+use super::entries::{Column, LitRanges};
 use super::samples::SublayerOf;
 use super::window::Place;
 use super::{Change, Masks, Samples, Side, Span, each_change};
 use crate::grid::Grid;
 use crate::ldi::projection::Projection;
-use crate::ldi::{LdiError, Overlaps, RayImage, Survey, printed_ranges, sign_of};
-use crate::model::{FacetLists, Mesh};
+use crate::ldi::{LdiError, Overlaps, RayImage, Survey, sign_of};
+use crate::model::Mesh;
 use crate::plan::Plan;
 use crate::progress::silent;
 
@@ -48,13 +49,8 @@ impl Masks {
         let projection = Projection::new(mesh, rays);
         let place = Place::new(rays, grid, samples, side);
         let facets = 0..projection.facets() as u32;
-        let lists = FacetLists::new(place.bands().len(), facets, |facet| {
-            let rows = projection.rows(facet as usize);
-            if rows.is_empty() {
-                0..0
-            } else {
-                place.band_of(rows.start as usize)..place.band_of(rows.end as usize - 1) + 1
-            }
+        let lists = projection.in_bands(place.bands().len(), facets, |row| {
+            place.band_of(row as usize)
         });
         let sublayer_of = SublayerOf::new(plan, samples.sublayers);
         Self::of_bands(plan.layers(), grid, samples, &place, |rows, changes| {
@@ -84,8 +80,8 @@ impl Masks {
                     });
             }
             overlaps.each_of_rows(rows, |row, column, hits| {
-                printed_ranges(hits, mesh.classes, |z_in, z_out| {
-                    let [on, off] = [z_in, z_out].map(|z_mm| sublayer_of.first_above(z_mm));
+                let column_ranges = &mut Column::new();
+                sublayer_of.of_ray(hits, mesh.classes, column_ranges, |on, off| {
                     if on < off {
                         band.add_ray(on, row, column, 1);
                         band.add_ray(off, row, column, -1);

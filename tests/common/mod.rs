@@ -20,7 +20,8 @@ use std::process::Command;
 use cusp_slicer::Error;
 use cusp_slicer::grid::{Bins, Grid};
 use cusp_slicer::job::{Options, Stage};
-use cusp_slicer::ldi::{Ldi, cpu};
+use cusp_slicer::ldi::visibility::{Visibility, visibility};
+use cusp_slicer::ldi::{Ldi, MeshRays, RayImage, Survey, cpu};
 use cusp_slicer::model::{Mesh, Pose};
 use cusp_slicer::progress::silent;
 use glam::Vec3;
@@ -66,6 +67,18 @@ pub fn sample(triangles: &[[Vec3; 3]], rays: u32) -> (Mesh, Ldi) {
     let grid = Grid::around(&mesh.bounds(), rays).unwrap();
     let ldi = cpu::sample(&mesh, &grid, &mut silent).unwrap();
     (mesh, ldi)
+}
+
+/// The facets of a mesh that its rays see.
+pub fn seen_along(mesh: &Mesh, ldi: &Ldi) -> Visibility {
+    let image = RayImage::Kept(ldi);
+    let (survey, overlaps) = Survey::with_overlaps(image, &mut silent).unwrap();
+    let rays = MeshRays {
+        mesh,
+        image,
+        overlaps: Some(&overlaps),
+    };
+    visibility(rays, &survey, &mut silent).unwrap()
 }
 
 /// A grid around the model, shifted by `shift` pixels from the grid that just covers it.

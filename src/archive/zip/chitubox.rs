@@ -9,16 +9,19 @@ use crate::printer::Printer;
 
 pub struct Chitubox;
 
+/// Columns and rows of the larger preview.
+const PREVIEW: [u32; 2] = [954, 850];
+
 impl Container for Chitubox {
     fn mask_name(&self, layer: usize) -> String {
         format!("{}.png", layer + 1)
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)(954);
+        let look = (job.look)(PREVIEW[0]);
         Ok(vec![
             ("run.gcode".to_owned(), run_gcode(job, layers).into_bytes()),
-            ("preview.png".to_owned(), look.png([954, 850])),
+            ("preview.png".to_owned(), look.png(PREVIEW)),
             ("preview_cropping.png".to_owned(), look.png([168, 150])),
         ])
     }

@@ -10,13 +10,16 @@ pub struct Sl1;
 /// The name of the job, which begins the names of masks.
 const JOB: &str = "cusp";
 
+/// Columns and rows of the larger preview.
+const PREVIEW: [u32; 2] = [800, 480];
+
 impl Container for Sl1 {
     fn mask_name(&self, layer: usize) -> String {
         format!("{JOB}{layer:05}.png")
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)(800);
+        let look = (job.look)(PREVIEW[0]);
         Ok(vec![
             ("config.ini".to_owned(), config(job, layers).into_bytes()),
             (
@@ -29,7 +32,7 @@ impl Container for Sl1 {
             ),
             (
                 "thumbnail/thumbnail800x480.png".to_owned(),
-                look.png([800, 480]),
+                look.png(PREVIEW),
             ),
         ])
     }

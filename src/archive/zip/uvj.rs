@@ -10,17 +10,20 @@ pub struct Uvj;
 /// The factor by which a layer may exceed the nominal layer height in readers that check it.
 const STEP_ROOM: f64 = 1.5;
 
+/// Columns and rows of the larger preview.
+const PREVIEW: [u32; 2] = [800, 480];
+
 impl Container for Uvj {
     fn mask_name(&self, layer: usize) -> String {
         format!("slice/{layer:08}.png")
     }
 
     fn files(&self, job: &PrintJob<'_>, layers: &[LayerEntry]) -> Result<Vec<File>, ArchiveError> {
-        let look = (job.look)(800);
+        let look = (job.look)(PREVIEW[0]);
         let config = serde_json::to_vec(&config(job, layers)).map_err(ArchiveError::write)?;
         Ok(vec![
             ("config.json".to_owned(), config),
-            ("preview/huge.png".to_owned(), look.png([800, 480])),
+            ("preview/huge.png".to_owned(), look.png(PREVIEW)),
             ("preview/tiny.png".to_owned(), look.png([400, 300])),
         ])
     }

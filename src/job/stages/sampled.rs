@@ -102,7 +102,8 @@ impl Sampler {
         }
     }
 
-    /// Samples a model that is prepared, and keeps the hits of all rays if `keeps_rays` is set and they fit. If the GPU fails, the CPU is used instead, unless the backend requires the GPU.
+    /// Samples a model that is prepared, and keeps the hits of all rays if `keeps_rays` is set and they fit. If the GPU fails, the CPU is
+    /// used instead, unless the backend requires the GPU.
     ///
     /// # Errors
     /// [`Error::Grid`], [`Error::Ldi`], [`Error::MemoryBound`], [`Error::TimeBound`].
