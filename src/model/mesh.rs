@@ -14,6 +14,7 @@ use super::facing::facing;
 use super::holes;
 use super::own_supports;
 use super::pose::{Pose, rotation_matrix};
+use super::weld::weld;
 
 /// Error of making a printable mesh from triangles.
 #[derive(Debug, Clone, PartialEq, thiserror::Error, Serialize)]
@@ -541,30 +542,6 @@ impl Mesh {
 /// Six times the volume between a facet and the origin, negative if the origin is on its outer side.
 pub(super) fn sixfold_volume([a, b, c]: [DVec3; 3]) -> f64 {
     a.dot(b.cross(c))
-}
-
-/// Gives equal corners one index, in order of first use. Facets with fewer than three distinct corners
-/// are kept here; the caller drops them.
-pub(crate) fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
-    let mut index_of = FxHashMap::default();
-    index_of.reserve(triangles.len() / 2);
-    let mut vertices = Vec::with_capacity(triangles.len() / 2);
-    let facets = triangles
-        .iter()
-        .map(|corners| {
-            corners.map(|corner| {
-                // Adding zero turns -0 into 0, so that both have the same key.
-                let corner = corner + Vec3::ZERO;
-                *index_of
-                    .entry(corner.to_array().map(f32::to_bits))
-                    .or_insert_with(|| {
-                        vertices.push(corner);
-                        vertices.len() as u32 - 1
-                    })
-            })
-        })
-        .collect();
-    (vertices, facets)
 }
 
 /// Turns those facets over.

@@ -16,14 +16,15 @@ pub mod read;
 pub mod saliency;
 mod unit;
 pub mod weights;
+mod weld;
 
 pub(crate) use bodies::{bodies, passes_above, windings_at};
 pub use class::{FacetClass, FacetClasses, Winding};
 pub use edges::{Across, Neighbours};
 pub(crate) use facet_lists::FacetLists;
 pub use file::{FileFacts, ModelFile};
-pub(crate) use mesh::weld;
 pub use mesh::{Bounds, Mesh, MeshError};
 pub(crate) use pose::rotation_matrix;
 pub use pose::{Pose, TURNS};
 pub use unit::ModelUnit;
+pub(crate) use weld::weld;
