@@ -17,6 +17,7 @@ use crate::ldi::LdiError;
 use crate::model::read::{PartKind, ReadOptions};
 use crate::model::{FacetClass, FileFacts, Mesh, ModelFile, Pose, read, saliency, weights};
 use crate::orientation::Surface;
+use crate::parallel;
 use crate::profile::facet_bins::FacetBins;
 use crate::profile::{Profile, Source};
 use crate::warning::Warning;
@@ -54,8 +55,10 @@ impl LoadedModel {
     /// [`Error::Read`], [`Error::Mesh`].
     pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Self, Error> {
         let clock = Instant::now();
-        let contents = read::read_with(bytes, options)?;
-        let facts = FileFacts::new(bytes, options, &contents);
+        let (contents, file) =
+            parallel::both(|| read::read_with(bytes, options), || ModelFile::of(bytes));
+        let contents = contents?;
+        let facts = FileFacts::new(&file, options, &contents);
         let mut model = Self::of_triangles(&contents.triangles, facts)?;
         model.mesh = model.mesh.without(&contents.negative)?;
         model.load_ms = ms_since(clock);

@@ -77,8 +77,8 @@ pub struct FileFacts {
 }
 
 impl FileFacts {
-    /// The facts of a file with these bytes, read with these choices as `contents`.
-    pub fn new(bytes: &[u8], options: &ReadOptions, contents: &Contents) -> Self {
+    /// The facts of a file, read with these choices as `contents`.
+    pub fn new(file: &ModelFile, options: &ReadOptions, contents: &Contents) -> Self {
         Self {
             file: ModelFile {
                 plate: contents.plate,
@@ -86,7 +86,7 @@ impl FileFacts {
                 curved_caps: options.curved_caps,
                 supports_as_model: options.supports_as_model,
                 mirrored: options.mirrored,
-                ..ModelFile::of(bytes)
+                ..*file
             },
             unit: contents.unit,
             skipped_objects: contents.skipped_objects,

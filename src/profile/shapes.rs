@@ -10,6 +10,7 @@ use crate::grid::Bins;
 use crate::ldi::visibility::{Visibility, visibility};
 use crate::ldi::{MeshRays, RayImage, Survey};
 use crate::model::{Mesh, crossing};
+use crate::parallel;
 use crate::progress::{Cancelled, Progress};
 
 /// The shape of a model from both sources.
@@ -64,8 +65,10 @@ impl Shapes {
         let spans = creases.spans;
         let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, rays, &mut second)?;
         let value = |facet| facet_bins.n_z_squared[facet];
-        let exact = steepest::exact_maxima(facet_bins, &hidden, value);
-        let mut cones = cones(mesh, bins);
+        let (exact, mut cones) = parallel::both(
+            || steepest::exact_maxima(facet_bins, &hidden, value),
+            || cones(mesh, bins),
+        );
         if !hidden.is_by_facets() {
             let seen = |cone: &Cone| {
                 let cone = *cone;

@@ -98,27 +98,27 @@ fn looks_like_text(bytes: &[u8]) -> bool {
 
 fn read_binary(bytes: &[u8]) -> Result<Vec<[Vec3; 3]>, StlError> {
     let body = &bytes[BINARY_HEADER_BYTES..];
-    body.chunks_exact(BINARY_FACET_BYTES)
-        .enumerate()
-        .map(|(facet, record)| {
-            let mut corners = [Vec3::ZERO; 3];
-            for (corner, chunk) in corners.iter_mut().zip(record[12..48].chunks_exact(12)) {
-                *corner = bytemuck::pod_read_unaligned(chunk);
-            }
-            if let Some(bad) = corners
-                .iter()
-                .flat_map(glam::Vec3::to_array)
-                .position(|coordinate| !coordinate.is_finite())
-            {
-                let start = BINARY_HEADER_BYTES + facet * BINARY_FACET_BYTES + 12;
-                return Err(StlError::NotFiniteBinary {
-                    byte: (start + 4 * bad) as u64,
-                    facet: facet as u64,
-                });
-            }
-            Ok(corners)
-        })
-        .collect()
+    let records = body.chunks_exact(BINARY_FACET_BYTES);
+    let mut triangles = Vec::with_capacity(records.len());
+    for (facet, record) in records.enumerate() {
+        let mut corners = [Vec3::ZERO; 3];
+        for (corner, chunk) in corners.iter_mut().zip(record[12..48].chunks_exact(12)) {
+            *corner = bytemuck::pod_read_unaligned(chunk);
+        }
+        if let Some(bad) = corners
+            .iter()
+            .flat_map(Vec3::to_array)
+            .position(|coordinate| !coordinate.is_finite())
+        {
+            let start = BINARY_HEADER_BYTES + facet * BINARY_FACET_BYTES + 12;
+            return Err(StlError::NotFiniteBinary {
+                byte: (start + 4 * bad) as u64,
+                facet: facet as u64,
+            });
+        }
+        triangles.push(corners);
+    }
+    Ok(triangles)
 }
 
 /// The words of an ASCII STL, and the line of each.
