@@ -63,12 +63,11 @@ pub(super) fn is_plain(hits: &[Hit], classes: FacetClasses) -> bool {
         rises
     };
     if classes.is_model_alone() {
-        return hits.chunks(2).all(|body| match body {
-            [enters, leaves] => {
+        let (bodies, rest) = hits.as_chunks::<2>();
+        return rest.is_empty()
+            && bodies.iter().all(|[enters, leaves]| {
                 rises(enters) && rises(leaves) && !enters.is_exit() && leaves.is_exit()
-            }
-            _ => false,
-        });
+            });
     }
     let mut winding = Winding::default();
     let mut is_inside = false;

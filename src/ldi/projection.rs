@@ -219,7 +219,7 @@ pub struct ProjectedFacet {
     z: f64,
     z_per_column: f64,
     z_per_row: f64,
-    z_range: [f64; 2],
+    z_range: [f32; 2],
     /// True if the facet faces up.
     pub faces_up: bool,
 }
@@ -245,10 +245,7 @@ impl ProjectedFacet {
             z: z_first,
             z_per_column,
             z_per_row,
-            z_range: [
-                heights[0].min(heights[1]).min(heights[2]),
-                heights[0].max(heights[1]).max(heights[2]),
-            ],
+            z_range: [z[0].min(z[1]).min(z[2]), z[0].max(z[1]).max(z[2])],
             // Rows run downward, so counter-clockwise from above has a negative area here.
             faces_up: area < 0,
         }
@@ -262,7 +259,7 @@ impl ProjectedFacet {
             z: self.z + rows as f64 * self.z_per_row,
             z_per_step: self.z_per_column,
             z_range: self.z_range,
-            origin: HALF - x,
+            origin: (HALF - x) as i32,
         }
     }
 }
@@ -273,25 +270,26 @@ pub struct RowHeights {
     /// Height at the column of the facet's first corner, and its change per lattice step.
     z: f64,
     z_per_step: f64,
-    z_range: [f64; 2],
+    z_range: [f32; 2],
     /// Centre of the first pixel relative to that corner, in lattice steps.
-    origin: i64,
+    origin: i32,
 }
 
 impl RowHeights {
     /// Height over the pixel centre of a column, in millimetres.
+    #[inline]
     pub fn at(&self, column: u32) -> f32 {
         // At most 2²³ lattice steps in magnitude.
-        let steps = (i64::from(column) * STEPS + self.origin) as i32;
-        let z = self.z + f64::from(steps) * self.z_per_step;
+        let steps = column as i32 * STEPS as i32 + self.origin;
+        let z = (self.z + f64::from(steps) * self.z_per_step) as f32;
         // By hand: `max` and `min` are library calls in wasm, `clamp` may panic.
         let [least, greatest] = self.z_range;
         if z < least {
-            least as f32
+            least
         } else if z > greatest {
-            greatest as f32
+            greatest
         } else {
-            z as f32
+            z
         }
     }
 }

@@ -52,8 +52,11 @@ impl Heights {
         let (z_in, z_out) = (z_in.to_bits(), z_out.to_bits());
         for (from, to) in &mut self.recent {
             if z_in <= *to && *from <= z_out {
-                *from = z_in.min(*from);
-                *to = z_out.max(*to);
+                // Seldom, as most ranges lie within.
+                if z_in < *from || *to < z_out {
+                    *from = z_in.min(*from);
+                    *to = z_out.max(*to);
+                }
                 return;
             }
         }

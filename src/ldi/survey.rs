@@ -107,20 +107,30 @@ impl Sums {
 
     fn add(&mut self, rays: Rays<'_>) {
         let classes = rays.classes;
-        let (has_caps, is_alone) = (classes.has_caps(), classes.is_model_alone());
+        let is_alone = classes.is_model_alone();
         let is_cap = |hit: &Hit| classes.of(hit.facet()) == FacetClass::Cap;
+        // In most rows there are none, and a loop that only looks for any is vectorised.
+        let meet_caps = || rays.hits.iter().fold(false, |any, hit| any | is_cap(hit));
+        let has_caps = classes.has_caps() && meet_caps();
         self.hits += rays.hits.len() as u64;
+        // In a register: each sum waits for the one before.
+        let mut printed_mm = self.printed_mm;
         for (ray, hits) in rays.each().enumerate() {
             if hits.is_empty() {
                 continue;
             }
+            let mut add_range = |z_in: f32, z_out: f32| {
+                printed_mm += f64::from(z_out) - f64::from(z_in);
+                self.heights.add(z_in, z_out);
+            };
             let is_plain = is_plain(hits, classes);
             if is_plain && is_alone {
-                for body in hits.chunks_exact(2) {
-                    self.add_range(body[0].z_mm, body[1].z_mm);
+                let (bodies, _) = hits.as_chunks::<2>();
+                for [enters, leaves] in bodies {
+                    add_range(enters.z_mm, leaves.z_mm);
                 }
             } else {
-                printed_ranges(hits, classes, |z_in, z_out| self.add_range(z_in, z_out));
+                printed_ranges(hits, classes, add_range);
             }
             if has_caps && hits.iter().any(is_cap) {
                 self.through_holes += 1;
@@ -134,12 +144,7 @@ impl Sums {
                 self.add_overlap(&rays, ray, hits);
             }
         }
-    }
-
-    #[inline]
-    fn add_range(&mut self, z_in: f32, z_out: f32) {
-        self.printed_mm += f64::from(z_out) - f64::from(z_in);
-        self.heights.add(z_in, z_out);
+        self.printed_mm = printed_mm;
     }
 
     #[cold]
