@@ -243,8 +243,10 @@ fn time(case: &Case, program: &Path, measured: &mut Measured) -> Result<()> {
             .push(fs::metadata(file)?.len() as f64 / 1e3);
     }
     let report: Value = serde_json::from_slice(&output.stdout).unwrap_or_default();
+    // Old revisions report a model without plates.
+    let plate = report.pointer("/plates/0").unwrap_or(&report);
     for (stage, times) in STAGES.iter().zip(&mut measured.stages_ms) {
-        times.extend(report["timings_ms"][stage.0].as_f64());
+        times.extend(plate["timings_ms"][stage.0].as_f64());
     }
     Ok(())
 }
