@@ -5,7 +5,7 @@ import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
 import { holdLock } from "./liveness.js";
-import { ring } from "./ring.js";
+import { rehearse } from "./rehearsal.js";
 import { stlOf } from "./stl.js";
 import "./callbacks.js";
 import { endUpperHalves } from "./vectors.js";
@@ -13,10 +13,6 @@ import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, Remote,
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
-
-/** Parts of the ring for the warm-up: a few ms of work once compiled, but enough rounds in most loops for optimised code. */
-const REHEARSED = 20;
-const REHEARSED_RAYS = 128;
 
 let job: Job | null = null;
 let search: OrientationSearch | null = null;
@@ -96,13 +92,7 @@ const api: Remote = {
     return compiled;
   },
   memory: () => core?.memory.buffer.byteLength ?? 0,
-  async warmUp() {
-    const ringed = new Job();
-    ringed.add(stlOf(ring(REHEARSED)), {});
-    await ringed.plan({ options: { rays: REHEARSED_RAYS, backend: "cpu" } }, () => undefined);
-    ringed.mask(0, 0);
-    ringed.free();
-  },
+  warmUp: rehearse,
   async add(file, reading, progress, wantsPositions) {
     progress("load", 0, 0);
     // Rejects a file of another kind before reading all of it.
