@@ -9,9 +9,14 @@
  * With `--against DIR`, the `dist` folder of another build, rounds of both alternate. A table then has their medians, and the ratio of the
  * other build to ours: the median over the pairs of rounds, so that a machine that slows down meanwhile affects both.
  *
+ * With `--native PROGRAM`, the command line plans and slices the same model between the rounds, with its 2048 rays, and ratios of
+ * the page to it are printed.
+ *
  * `--directions` measures the orientation search instead, `--cancel` the delay of aborted calls.
  */
-import { readFile, readdir } from "node:fs/promises";
+import { execFileSync } from "node:child_process";
+import { mkdtemp, readFile, readdir, rm, writeFile } from "node:fs/promises";
+import { tmpdir } from "node:os";
 import { basename, join, resolve } from "node:path";
 import { fileURLToPath } from "node:url";
 import { parseArgs } from "node:util";
@@ -25,7 +30,7 @@ import { serve, type Served } from "./serve.js";
 import { finer, sphere } from "./solids.js";
 import { resident } from "./usage.js";
 
-const USAGE = "usage: npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--rounds N] [--after SECONDS] [--directions | --cancel]";
+const USAGE = "usage: npm run measure -- MODEL [HEIGHT_MM [RAYS [BACKEND]]] [--against DIR] [--native PROGRAM] [--rounds N] [--after SECONDS] [--directions | --cancel]";
 /** Timeout of a run, for a machine with other work. */
 const PATIENCE_MS = 120_000;
 
@@ -35,6 +40,8 @@ interface Measured {
   query: string;
   rounds: number;
   after_ms: number;
+  /** Times the command line on the same model. */
+  native: () => Pick<Round, "native_plan_ms" | "native_zip_ms">;
 }
 
 interface Round {
@@ -45,6 +52,9 @@ interface Round {
   zip_ms: number;
   /** Peak memory of the page processes; undefined if the system does not report it. */
   megabytes: number | undefined;
+  /** Times of the command line, from its start to its end; undefined if it was not asked for. */
+  native_plan_ms?: number;
+  native_zip_ms?: number;
   timings: string;
 }
 
@@ -55,11 +65,15 @@ const FIGURES: readonly (readonly [name: string, of: (round: Round) => number | 
   ["drop to print file, ms", (it) => it.zip_ms],
   ["memory of the page, MB", (it) => it.megabytes],
   ["layers", (it) => it.layers],
+  ["native plan, ms", (it) => it.native_plan_ms],
+  ["native print file, ms", (it) => it.native_zip_ms],
+  ["plan, page / native, %", (it) => percent(it.plan_ms, it.native_plan_ms)],
+  ["print file, page / native, %", (it) => percent(it.zip_ms, it.native_zip_ms)],
 ];
 
 export async function main(args: string[]): Promise<void> {
   const [text, flag] = [{ type: "string" }, { type: "boolean" }] as const;
-  const options = { against: text, rounds: { ...text, default: "5" }, after: { ...text, default: "2" }, directions: flag, cancel: flag };
+  const options = { against: text, native: text, rounds: { ...text, default: "5" }, after: { ...text, default: "2" }, directions: flag, cancel: flag };
   const { positionals, values } = parseArgs({ args, allowPositionals: true, options });
   const [model, height = "60", rays = "2048", backend = "auto"] = positionals;
   if (model === undefined) throw new Error(USAGE);
@@ -70,7 +84,26 @@ export async function main(args: string[]): Promise<void> {
   if (values.cancel) return cancels(file.bytes, Number(height), rounds);
   const folders = [fileURLToPath(new URL("../dist", import.meta.url))];
   if (values.against !== undefined) folders.unshift(resolve(values.against));
-  await pages(folders, { file, query: `?backend=${backend}&height=${height}&rays=${rays}`, rounds, after_ms: 1000 * Number(values.after) });
+  const query = `?backend=${backend}&height=${height}&rays=${rays}`;
+  const scratch = await mkdtemp(join(tmpdir(), "cusp-measure-"));
+  try {
+    const native = values.native === undefined ? () => ({}) : await commandLine(resolve(values.native), file, scratch, ["--height", height]);
+    await pages(folders, { file, query, rounds, after_ms: 1000 * Number(values.after), native });
+  } finally {
+    await rm(scratch, { recursive: true });
+  }
+}
+
+/** Returns a function that times the command line. */
+async function commandLine(program: string, file: DroppedFile, scratch: string, options: string[]): Promise<Measured["native"]> {
+  const model = join(scratch, "model.stl");
+  await writeFile(model, file.bytes);
+  const time = (...args: string[]): number => {
+    const start = performance.now();
+    execFileSync(program, [...args, model, ...options], { stdio: "ignore" });
+    return performance.now() - start;
+  };
+  return () => ({ native_plan_ms: time("plan"), native_zip_ms: time("slice", "-o", join(scratch, "model.zip")) });
 }
 
 async function fileOf(model: string): Promise<DroppedFile> {
@@ -88,7 +121,7 @@ async function pages(folders: readonly string[], measured: Measured): Promise<vo
     const builds = served.map(({ address }) => ({ address, rounds: [] as Round[] }));
     for (let i = 0; i <= measured.rounds; i++) {
       for (const { address, rounds } of i % 2 === 0 ? builds : builds.toReversed()) {
-        const done = await apart(address, measured);
+        const done = { ...(await apart(address, measured)), ...measured.native() };
         // The first round of each warms the system's file cache.
         if (i > 0) rounds.push(done);
         console.error(`round ${i} of ${measured.rounds}, ${address}: plan ${Math.round(done.plan_ms)} ms, view ${Math.round(done.view_ms)} ms, zip ${Math.round(done.zip_ms)} ms`);
@@ -97,7 +130,10 @@ async function pages(folders: readonly string[], measured: Measured): Promise<vo
     const [before, now] = builds;
     if (before !== undefined && now !== undefined) return await compare(folders, before, now, measured);
     const { rounds = [] } = before ?? {};
-    for (const [name, of] of FIGURES) console.log(`${name.padEnd(24)} ${spread(rounds.map(of))}`);
+    for (const [name, of] of FIGURES) {
+      const values = rounds.map(of);
+      if (values.some((it) => it !== undefined)) console.log(`${name.padEnd(28)} ${spread(values)}`);
+    }
     console.log(`of the first:  ${rounds[0]?.timings}`);
   } finally {
     await Promise.all(served.map((it) => it.close()));
@@ -115,6 +151,7 @@ async function compare(folders: readonly string[], before: Build, now: Build, { 
   console.log("| | before | now | before / now |\n|---|---:|---:|---:|");
   for (const [name, of] of FIGURES) {
     const [old, recent] = [before.rounds.map(of), now.rounds.map(of)];
+    if (recent.every((it) => it === undefined)) continue;
     console.log(row(name, median(old), median(recent), median(old.map((value, i) => ratio(value, recent[i])))));
   }
   const [oldModules, modules] = [await wasmSizes(folders[0] ?? ""), await wasmSizes(folders[1] ?? "")];
@@ -254,6 +291,8 @@ function median(values: readonly (number | undefined)[]): number | undefined {
 }
 
 const inMegabytes = (bytes: number | undefined): number | undefined => (bytes === undefined ? undefined : bytes / 1e6);
+
+const percent = (page_ms: number, native_ms?: number): number | undefined => (native_ms === undefined ? undefined : (100 * page_ms) / native_ms);
 
 const ratio = (before?: number, now?: number): number | undefined =>
   before === undefined || now === undefined ? undefined : before / now;
