@@ -1,8 +1,9 @@
 //! Time of `cusp slice` as a whole process, STL to print file:
-//! `cargo xtask bench slice [--format NAME|all] [--peer] [MODEL.stl …]`.
+//! `cargo xtask bench slice [--format NAME|all] [--peer] [--growth] [MODEL.stl …]`.
 //!
 //! A sphere of 40 mm and 80,000 facets on a 12K screen, in one format or in all; then each model named, 60 mm high, at 2048 pixels along
-//! its longer side, in uniform layers of 0.05 mm. With `--peer`, `prusa-slicer`, which must be on PATH, slices the same models.
+//! its longer side, in uniform layers of 0.05 mm. With `--peer`, `prusa-slicer`, which must be on PATH, slices the same models. With
+//! `--growth`, only how time grows with facets, rays, layers and copies.
 
 #[path = "paper/models.rs"]
 #[expect(dead_code, reason = "a ball is enough here")]
@@ -40,14 +41,10 @@ fn time(command: &mut Command) -> f64 {
 fn cusp(model: &Path, output: &Path, options: &str) -> Command {
     let mut command = Command::new(env!("CARGO_BIN_EXE_cusp"));
     command.arg("slice").arg(model).arg("-o").arg(output);
-    command.args([
-        "--backend",
-        "cpu",
-        "--planner",
-        "uniform",
-        "--layer",
-        "0.05",
-    ]);
+    command.args(["--backend", "cpu", "--planner", "uniform"]);
+    if !options.contains("--layer") {
+        command.args(["--layer", "0.05"]);
+    }
     command.args(options.split_whitespace());
     command
 }
@@ -81,6 +78,9 @@ fn main() {
     let arguments: Vec<String> = std::env::args().skip(1).collect();
     let folder = tempfile::tempdir().expect("a folder");
     let output = folder.path().join("out.zip");
+    if arguments.iter().any(|argument| argument == "--growth") {
+        return growth(folder.path(), &output);
+    }
 
     println!(
         "A sphere of 40 mm on 11520 × 5120 pixels of 19 × 24 µm, 800 layers of 0.05 mm; medians of {ROUNDS}\n"
@@ -113,6 +113,55 @@ fn main() {
     let with_peer = arguments.iter().any(|argument| argument == "--peer");
     for path in models {
         compare(Path::new(path), folder.path(), with_peer);
+    }
+}
+
+/// Prints times of the usual and of ten times as much of one thing, and the exponent with which time grows.
+fn growth(folder: &Path, output: &Path) {
+    let ball = |radius: f64, rings: u32| {
+        let model = folder.join(format!("{radius}-{rings}.stl"));
+        let facets = models::ball(radius, rings, rings);
+        fs::write(&model, solids::binary_stl(&facets)).expect("a ball");
+        model
+    };
+    let [usual, fine, small] = [ball(20.0, 224), ball(20.0, 708), ball(4.0, 64)];
+    let square = |rays: f64| format!("--pixels {rays}x{rays} --pitch {}", 41.0 / rays);
+    let options = square(RAYS);
+    let copies =
+        |count: u32| format!("--pixels 11520x5120 --pitch 0.019x0.024 --arrange --copies {count}");
+    let cases = [
+        (
+            "facets, 100,000",
+            [&usual, &fine],
+            [options.clone(), options.clone()],
+        ),
+        (
+            "rays, 2048²",
+            [&usual; 2],
+            [options.clone(), square(6476.0)],
+        ),
+        (
+            "layers, 800",
+            [&usual; 2],
+            [options.clone(), format!("{options} --layer 0.005")],
+        ),
+        (
+            "copies, 10 of 8,000 facets",
+            [&small; 2],
+            [copies(10), copies(100)],
+        ),
+    ];
+    println!("| ten times as many | s | s | exponent |\n|---|---:|---:|---:|");
+    for (name, models, options) in cases {
+        let mut times = [Vec::new(), Vec::new()];
+        for _ in 0..ROUNDS {
+            for (times, (model, options)) in times.iter_mut().zip(models.iter().zip(&options)) {
+                times.push(time(&mut cusp(model, output, options)));
+            }
+        }
+        let [one_s, ten_s] = times.map(median);
+        let exponent = (ten_s / one_s).log10();
+        println!("| {name} | {one_s:.3} | {ten_s:.3} | {exponent:.2} |");
     }
 }
 
