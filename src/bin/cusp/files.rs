@@ -184,7 +184,7 @@ impl<'a> Output<'a> {
             None => Ok(Sink::Standard(io::stdout())),
         };
         let sink = sink.map_err(|error| self.failed(&error))?;
-        let (writer, result) = write(BufWriter::new(sink))?;
+        let (writer, result) = write(BufWriter::with_capacity(BUFFER_BYTES, sink))?;
         let sink = writer.into_inner().map_err(|error| self.failed(&error))?;
         let kept = match (sink, &self.place) {
             (Sink::File(file), Some(place)) => file.persist(place),
@@ -234,6 +234,9 @@ impl<'a> Output<'a> {
         self.path.extension()?.to_str()
     }
 }
+
+/// Bytes that are written at once: those of many layers.
+const BUFFER_BYTES: usize = 1 << 20;
 
 /// Writes to a file that is not in its place yet, or to standard output.
 pub type Writer = BufWriter<Sink>;
