@@ -214,7 +214,7 @@ impl<'a> Scan<'a> {
         all
     }
 
-    /// Calls `take` with the rays of each of some rows of a band, whose hits are found and sorted in the cache.
+    /// Calls `take` with the rays of some rows of a band, row by row: their hits are found and sorted in the cache.
     pub(super) fn each_row(
         &self,
         rows: Range<u32>,

@@ -136,7 +136,7 @@ impl Part {
     }
 }
 
-/// The first marked column at or after `from`, or `end` if there is none before `end`.
+/// Returns the first marked column in `from..end`, or `end` if no column there is marked.
 #[inline]
 fn next_marked(marks: &[u64], from: u32, end: u32) -> u32 {
     let first = from / 64;

@@ -153,11 +153,11 @@ fn seen_where_bodies_overlap(
     for (&seen, &body) in seen.iter().zip(bodies) {
         body_seen[body as usize] |= seen & !INSIDE;
     }
-    let is_of_such = |&facet: &u32| {
+    let is_of_inner_body = |&facet: &u32| {
         let facet = facet as usize;
         seen[facet] == 0 && body_seen[bodies[facet] as usize] == MET
     };
-    for facet in met_on_surface((0..model_end).filter(is_of_such).collect()) {
+    for facet in met_on_surface((0..model_end).filter(is_of_inner_body).collect()) {
         seen[facet as usize] = MET | ON_SURFACE;
     }
     seen

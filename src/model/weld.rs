@@ -36,6 +36,7 @@ pub(crate) fn weld(triangles: &[[Vec3; 3]]) -> (Vec<Vec3>, Vec<[u32; 3]>) {
     let triangles = triangles.iter();
     let mut facets: Vec<[u32; 3]> = triangles.map(|it| it.map(&mut place_of)).collect();
 
+    // The lists hold corners in place of facets.
     let bits = (corners.len() / BUCKET).max(1).ilog2();
     let bucket_of = |place: u32| once(leading(hash(corners[place as usize]), bits));
     let buckets = FacetLists::new(1 << bits, 0..corners.len() as u32, bucket_of);

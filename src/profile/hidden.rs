@@ -71,10 +71,10 @@ impl Hidden {
             return Ok(self);
         }
         let seen: Vec<AtomicU8> = parts.spans.iter().map(|_| AtomicU8::new(0)).collect();
-        let note = |facet: u32, z_mm: f32, note: u8| {
+        let note = |facet: u32, z_mm: f32, place: u8| {
             let bin = facet_bins.bins.of(f64::from(z_mm)) as u32;
             if let Some(part) = parts.at(facet, bin) {
-                seen[part].fetch_or(note, Relaxed);
+                seen[part].fetch_or(place, Relaxed);
             }
         };
         let model_end = rays.mesh.classes.model_end();
@@ -84,8 +84,8 @@ impl Hidden {
                 return;
             }
             each_of_model(hits, model_end, |hit, is_inside| {
-                let of = if is_inside { INSIDE } else { ON_SURFACE };
-                note(hit.facet(), hit.z_mm, of);
+                let place = if is_inside { INSIDE } else { ON_SURFACE };
+                note(hit.facet(), hit.z_mm, place);
             });
         };
         if let Some(overlaps) = rays.overlaps {

@@ -67,8 +67,8 @@ const FIGURES: readonly (readonly [name: string, of: (round: Round) => number | 
   ["layers", (it) => it.layers],
   ["native plan, ms", (it) => it.native_plan_ms],
   ["native print file, ms", (it) => it.native_zip_ms],
-  ["plan, page / native, %", (it) => percent(it.plan_ms, it.native_plan_ms)],
-  ["print file, page / native, %", (it) => percent(it.zip_ms, it.native_zip_ms)],
+  ["plan, page / native, %", (it) => ratio(100 * it.plan_ms, it.native_plan_ms)],
+  ["print file, page / native, %", (it) => ratio(100 * it.zip_ms, it.native_zip_ms)],
 ];
 
 export async function main(args: string[]): Promise<void> {
@@ -291,8 +291,6 @@ function median(values: readonly (number | undefined)[]): number | undefined {
 }
 
 const inMegabytes = (bytes: number | undefined): number | undefined => (bytes === undefined ? undefined : bytes / 1e6);
-
-const percent = (page_ms: number, native_ms?: number): number | undefined => (native_ms === undefined ? undefined : (100 * page_ms) / native_ms);
 
 const ratio = (before?: number, now?: number): number | undefined =>
   before === undefined || now === undefined ? undefined : before / now;

@@ -147,13 +147,10 @@ impl Sampler {
             }
             None => (None, None),
         };
+        let scanned = RayImage::Scanned { mesh, grid: rays };
         let (survey, hits) = match (ldi, bound) {
-            (None, Some(bound)) => {
-                let scanned = RayImage::Scanned { mesh, grid: rays };
-                (Survey::of(scanned, progress)?, Hits::None(bound))
-            }
+            (None, Some(bound)) => (Survey::of(scanned, progress)?, Hits::None(bound)),
             (None, None) => {
-                let scanned = RayImage::Scanned { mesh, grid: rays };
                 let (survey, overlaps) = Survey::with_overlaps(scanned, progress)?;
                 (survey, Hits::OfOverlaps(overlaps))
             }
@@ -254,7 +251,7 @@ impl Sampled {
         }
     }
 
-    /// Returns true if passes over all rays find them in memory, or would not with any other choice.
+    /// Returns false if the hits of all rays could be kept, and are not.
     pub fn keeps_rays(&self) -> bool {
         !matches!(self.hits, Hits::OfOverlaps(_))
     }

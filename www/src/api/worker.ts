@@ -1,11 +1,11 @@
-/** The worker: the only file that imports the WebAssembly package. It holds one job. */
+/** The worker, which holds one job. Only workers import the WebAssembly package. */
 import * as Comlink from "comlink";
 import init, { calibrate_cure, calibrate_layers, encode_group, head_bytes, fit_cure, identify, Job, OrientationSearch, price, printers, project_files, project_part, write_project, type InitOutput } from "../../pkg/cusp_slicer.js";
 import { acceptCompatible } from "./adapters.js";
 import { bytesOf } from "./bytes.js";
 import { encodeGroups, isLong } from "./encode-groups.js";
 import { holdLock } from "./liveness.js";
-import { rehearse } from "./rehearsal.js";
+import { ring } from "./ring.js";
 import { stlOf } from "./stl.js";
 import "./callbacks.js";
 import { endUpperHalves } from "./vectors.js";
@@ -13,6 +13,10 @@ import type { Help, KnownPrinter, OnProgress, Options, PackedCandidates, Remote,
 
 /** Chunks of a print file are merged into a Blob at this many bytes; the browser may keep that on disk. */
 const BLOB_PART_BYTES = 8 << 20;
+
+/** Parts of each ring for the warm-up, and rays: enough rounds in most loops for optimised code. */
+const REHEARSED = 32;
+const REHEARSED_RAYS = 256;
 
 let job: Job | null = null;
 let search: OrientationSearch | null = null;
@@ -92,7 +96,18 @@ const api: Remote = {
     return compiled;
   },
   memory: () => core?.memory.buffer.byteLength ?? 0,
-  warmUp: rehearse,
+  async warmUp() {
+    const one = ring(REHEARSED);
+    const overlapping = one.map((mm, i) => (i % 3 === 0 ? mm + 1 : mm));
+    const ringed = new Job();
+    ringed.add(stlOf(Float32Array.from([...one, ...overlapping])), {});
+    await ringed.plan({ options: { rays: REHEARSED_RAYS, backend: "cpu" } }, () => undefined);
+    ringed.mask(0, 0);
+    const groups = ringed.layer_groups(0);
+    if (groups !== undefined) await encodeGroups(groups, 0, () => Promise.resolve(null), () => undefined);
+    groups?.free();
+    ringed.free();
+  },
   async add(file, reading, progress, wantsPositions) {
     progress("load", 0, 0);
     // Rejects a file of another kind before reading all of it.
