@@ -327,6 +327,34 @@ fn every_ray_closes_whatever_is_missing_or_flipped() {
     }
 }
 
+/// Asserts that the rays of a mesh, as they are found row by row, tell the same as its LDI, whose rays are sorted.
+#[track_caller]
+fn assert_same_surveys(mesh: &Mesh, rays: u32) {
+    let grid = Grid::around(&mesh.bounds(), rays).unwrap();
+    let ldi = cpu::sample(mesh, &grid, &mut silent).unwrap();
+    let told = |image| Survey::with_overlaps(image, &mut silent).unwrap();
+    assert_eq!(
+        told(RayImage::Scanned { mesh, grid }),
+        told(RayImage::Kept(&ldi))
+    );
+}
+
+#[test]
+fn found_rows_tell_the_same_as_an_ldi() {
+    for (_, triangles) in solids::all() {
+        assert_same_surveys(&on_plate(&triangles), 100);
+    }
+    for (_, triangles, rays) in solids::torture() {
+        assert_same_surveys(&on_plate(&triangles), rays);
+    }
+    let mut random = fastrand::Rng::with_seed(29);
+    for part in [0.02, 0.2, 0.5] {
+        let mut triangles = solids::sphere(5.0, 4);
+        triangles.retain(|_| random.f32() > part);
+        assert_same_surveys(&on_plate(&triangles), 150);
+    }
+}
+
 #[test]
 fn sampling_stops_when_asked() {
     let mesh = on_plate(&solids::sphere(10.0, 4));
@@ -405,6 +433,7 @@ fn voids_are_left_out_of_the_model_and_supports_are_not() {
     let facet_bins = |mesh: &Mesh| FacetBins::of(mesh, bins);
     assert_eq!(facet_bins(&joined).spans, facet_bins(&model).spans);
     assert_eq!(seen_along(&joined, &ldi), seen_along(&model, &alone));
+    assert_same_surveys(&joined, 50);
     let printed_mm3 = survey(&ldi).solid.volume_mm3;
     assert_near(printed_mm3, 1000.0 - 216.0 + 8.0, 1e-6);
 }

@@ -128,15 +128,31 @@ impl<'a> RecentFacets<'a> {
 pub(super) fn sort_rays(offsets: &[u32], hits: &mut [Hit]) {
     let base = offsets[0];
     for ray in offsets.windows(2) {
-        let ray = &mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize];
-        match ray {
-            [] | [_] => {}
-            [low, high] => {
-                if low.key() > high.key() {
-                    std::mem::swap(low, high);
-                }
-            }
-            _ => ray.sort_unstable_by_key(|hit| hit.key()),
-        }
+        sort_ray(&mut hits[(ray[0] - base) as usize..(ray[1] - base) as usize]);
     }
+}
+
+/// Sorts the hits of a ray. Most rays have two or four.
+#[inline]
+pub(super) fn sort_ray(ray: &mut [Hit]) {
+    match ray {
+        [] | [_] => {}
+        [a, b] => sort_two(a, b),
+        [a, b, c, d] => {
+            sort_two(a, b);
+            sort_two(c, d);
+            sort_two(a, c);
+            sort_two(b, d);
+            sort_two(b, c);
+        }
+        _ => ray.sort_unstable_by_key(|hit| hit.key()),
+    }
+}
+
+/// Sorts two hits without a branch, which no processor could predict.
+#[inline]
+fn sort_two(low: &mut Hit, high: &mut Hit) {
+    let keys = [low.key(), high.key()];
+    *low = Hit::of_key(keys[0].min(keys[1]));
+    *high = Hit::of_key(keys[0].max(keys[1]));
 }

@@ -145,6 +145,101 @@ impl ScannedRays {
     }
 }
 
+/// The rays of a row as they are found. Most have two hits: they enter a body and leave it, so that the facing of a facet tells which
+/// of them it is, and nothing needs sorting.
+#[derive(Debug)]
+pub struct RayRow {
+    /// The row of the grid.
+    pub row: u32,
+    /// Number of hits of each ray.
+    counts: Vec<u32>,
+    /// The hits of rays that have two, the one that faces up last.
+    pairs: Vec<[Hit; 2]>,
+    /// The end of each other ray in `hits`.
+    ends: Vec<u32>,
+    hits: Vec<Hit>,
+}
+
+/// Rays side by side in a row.
+pub enum RowPart<'a> {
+    /// Rays that have two hits each, the one that faces up last.
+    Pairs(&'a mut [[Hit; 2]]),
+    /// A ray with its hits in order.
+    Ray(&'a [Hit]),
+}
+
+impl RayRow {
+    fn new(width: usize) -> Self {
+        Self {
+            row: 0,
+            counts: vec![0; width],
+            pairs: vec![bytemuck::Zeroable::zeroed(); width],
+            ends: vec![0; width],
+            hits: Vec::new(),
+        }
+    }
+
+    fn fill(&mut self, spans: &[FacetSpan]) {
+        self.counts.fill(0);
+        for span in spans {
+            add_span(&mut self.counts, span.columns);
+        }
+        let (mut open, mut total) = (0u32, 0);
+        for (count, end) in self.counts.iter_mut().zip(&mut self.ends) {
+            open = open.wrapping_add(*count);
+            *count = open;
+            *end = total;
+            total += if open == 2 { 0 } else { open };
+        }
+        self.hits
+            .resize(total as usize, bytemuck::Zeroable::zeroed());
+        for &span in spans {
+            let [from, to] = span.columns;
+            let columns = from as usize..to as usize;
+            let is_exit = usize::from(span.surface.is_exit());
+            let pairs = (from..to).zip(&mut self.pairs[columns.clone()]);
+            if total == 0 {
+                for (column, pair) in pairs {
+                    pair[is_exit] = span.hit(column);
+                }
+                continue;
+            }
+            let others = self.counts[columns.clone()]
+                .iter()
+                .zip(&mut self.ends[columns]);
+            for ((column, pair), (&count, end)) in pairs.zip(others) {
+                if count == 2 {
+                    pair[is_exit] = span.hit(column);
+                } else {
+                    self.hits[*end as usize] = span.hit(column);
+                    *end += 1;
+                }
+            }
+        }
+    }
+
+    /// Calls `take` with each stretch of rays that have two hits, and each other ray that has any, by their first column.
+    pub fn each(&mut self, mut take: impl FnMut(u32, RowPart<'_>)) {
+        let mut first = 0;
+        for counts in self.counts.chunk_by(|a, b| a == b) {
+            let columns = first..first + counts.len();
+            let part = columns.start as u32;
+            first = columns.end;
+            match counts[0] {
+                0 => {}
+                2 => take(part, RowPart::Pairs(&mut self.pairs[columns])),
+                count => {
+                    for (column, &end) in (part..).zip(&self.ends[columns]) {
+                        let ray = &mut self.hits[(end - count) as usize..end as usize];
+                        assemble::sort_ray(ray);
+                        take(column, RowPart::Ray(ray));
+                    }
+                }
+            }
+        }
+    }
+}
+
 impl<'a> Scan<'a> {
     /// A scan of all facets.
     pub fn new(projection: &'a Projection<'a>, grid: &Grid, classes: FacetClasses) -> Self {
@@ -237,7 +332,7 @@ impl<'a> Scan<'a> {
                 total += open;
             }
             hits.resize(total as usize, bytemuck::Zeroable::zeroed());
-            for span in &spans {
+            for &span in &spans {
                 let [from, to] = span.columns;
                 let starts = &mut starts[from as usize..to as usize];
                 for (column, start) in (from..to).zip(starts) {
@@ -253,6 +348,16 @@ impl<'a> Scan<'a> {
                 hits: &hits,
                 classes: self.classes,
             });
+        }
+    }
+
+    /// Calls `take` with some rows of a band, whose rays are not sorted.
+    pub(super) fn each_unsorted(&self, rows: Range<u32>, take: &mut dyn FnMut(&mut RayRow)) {
+        let mut found = RayRow::new(self.grid.width as usize);
+        for (row, spans) in rows.clone().zip(self.spans(rows, None)) {
+            found.row = row;
+            found.fill(&spans);
+            take(&mut found);
         }
     }
 

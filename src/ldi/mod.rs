@@ -184,8 +184,17 @@ impl Hit {
 
     /// Sort key along the ray: height, then facet. Heights are not negative, so their bits sort as
     /// the heights do.
+    #[inline]
     fn key(self) -> u64 {
         u64::from(self.z_mm.to_bits()) << 32 | u64::from(self.surface)
+    }
+
+    #[inline]
+    fn of_key(key: u64) -> Self {
+        Self {
+            z_mm: f32::from_bits((key >> 32) as u32),
+            surface: key as u32,
+        }
     }
 }
 

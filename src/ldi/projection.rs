@@ -284,13 +284,8 @@ impl RowHeights {
         let z = (self.z + f64::from(steps) * self.z_per_step) as f32;
         // By hand: `max` and `min` are library calls in wasm, `clamp` may panic.
         let [least, greatest] = self.z_range;
-        if z < least {
-            least
-        } else if z > greatest {
-            greatest
-        } else {
-            z
-        }
+        let z = if least > z { least } else { z };
+        if greatest < z { greatest } else { z }
     }
 }
 

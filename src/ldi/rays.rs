@@ -2,7 +2,7 @@
 
 use std::ops::Range;
 
-use super::cpu::{Scan, ScannedRays};
+use super::cpu::{RayRow, Scan, ScannedRays};
 use super::projection::Projection;
 use super::{Hit, Ldi};
 use crate::grid::Grid;
@@ -127,6 +127,38 @@ impl RayRows<'_> {
         step: impl Fn(&mut T, Rays<'_>) + Sync + Send,
         progress: &mut Progress<'_>,
     ) -> Result<Vec<T>, Cancelled> {
+        let step = |value: &mut T, rows| {
+            // One instance of `step` for both sources keeps the module of browsers small.
+            let take: &mut dyn FnMut(Rays<'_>) = &mut |rays| step(value, rays);
+            match &self.source {
+                Bands::Kept(ldi) => take(ldi.rows(rows)),
+                Bands::Scanned(scan) => scan.each_row(rows, None, take),
+            }
+        };
+        self.fold_bands(first, step, progress)
+    }
+
+    /// The same with a `step` for either source, which for rays that are found takes a row that is not sorted.
+    fn fold_rows<T: Send>(
+        &self,
+        first: impl Fn() -> T,
+        kept: impl Fn(&mut T, Rays<'_>) + Sync + Send,
+        found: impl Fn(&mut T, &mut RayRow) + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<T>, Cancelled> {
+        let step = |value: &mut T, rows| match &self.source {
+            Bands::Kept(ldi) => kept(value, ldi.rows(rows)),
+            Bands::Scanned(scan) => scan.each_unsorted(rows, &mut |row| found(value, row)),
+        };
+        self.fold_bands(first, step, progress)
+    }
+
+    fn fold_bands<T: Send>(
+        &self,
+        first: impl Fn() -> T,
+        step: impl Fn(&mut T, Range<u32>) + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<T>, Cancelled> {
         let height = self.grid.height;
         let bands = height.div_ceil(BAND_ROWS) as usize;
         let part_bands = bands.div_ceil(PARTS).max(1);
@@ -142,14 +174,9 @@ impl RayRows<'_> {
             parts = parallel::map(parts, |(start, mut value)| {
                 let end = (start + part_bands).min(bands);
                 for band in start + round..(start + round + round_bands).min(end) {
-                    // One instance of `step` for both sources keeps the module of browsers small.
-                    let take: &mut dyn FnMut(Rays<'_>) = &mut |rays| step(&mut value, rays);
                     let first_row = band as u32 * BAND_ROWS;
                     let rows = first_row..(first_row + BAND_ROWS).min(height);
-                    match &self.source {
-                        Bands::Kept(ldi) => take(ldi.rows(rows)),
-                        Bands::Scanned(scan) => scan.each_row(rows, None, take),
-                    }
+                    step(&mut value, rows);
                 }
                 (start, value)
             });
@@ -197,6 +224,17 @@ impl RayImage<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<Vec<T>, Cancelled> {
         self.read(|image| image.fold(first, step, progress))
+    }
+
+    /// [`Self::fold`] with a `step` for rays of an LDI, and one for rows that are found and not sorted.
+    pub(super) fn fold_rows<T: Send>(
+        self,
+        first: impl Fn() -> T,
+        kept: impl Fn(&mut T, Rays<'_>) + Sync + Send,
+        found: impl Fn(&mut T, &mut RayRow) + Sync + Send,
+        progress: &mut Progress<'_>,
+    ) -> Result<Vec<T>, Cancelled> {
+        self.read(|image| image.fold_rows(first, kept, found, progress))
     }
 
     /// Reads the rays in any order: `read` is called once.

@@ -36,7 +36,7 @@ const MODULES: [Module; 2] = [
     Module {
         name: "cusp_slicer",
         features: &[],
-        budget: 857_000,
+        budget: 859_000,
     },
     Module {
         name: "cusp_reader",
