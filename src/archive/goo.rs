@@ -216,17 +216,20 @@ fn chunk(bytes: &mut Vec<u8>, grey: u8, count: u32) {
         255 => 0b11,
         _ => 0b01,
     };
-    // The lowest four bits of the count are in the first byte.
-    let [top, high, low, _] = (count >> 4 << 8).to_be_bytes();
-    let more: &[u8] = match count {
-        0..0x10 => &[],
-        0x10..0x1000 => &[low],
-        0x1000..0x10_0000 => &[high, low],
-        _ => &[top, high, low],
+    // The lowest four bits of the count are in the first byte, the others in up to three more.
+    let more = match count {
+        0..0x10 => 0,
+        0x10..0x1000 => 1,
+        0x1000..0x10_0000 => 2,
+        _ => 3,
     };
-    bytes.push(kind << 6 | (more.len() as u8) << 4 | (count & 0xf) as u8);
+    bytes.push(kind << 6 | more << 4 | (count & 0xf) as u8);
     if kind == 0b01 {
         bytes.push(grey);
     }
-    bytes.extend(more);
+    // Four bytes are written faster than one to three.
+    let end = bytes.len() + usize::from(more);
+    let rest = (u64::from(count >> 4) << (8 * (4 - more))) as u32;
+    bytes.extend(rest.to_be_bytes());
+    bytes.truncate(end);
 }

@@ -23,25 +23,23 @@ pub(super) fn for_each_run(
         }
     };
     let (mut last, mut count, mut end) = (0, 0, 0);
-    let dark_end = std::iter::once(None);
-    for run in runs.map(Some).chain(dark_end) {
-        let first = run.map_or(area, |run| u64::from(run.first));
-        let pixels = run.map_or(0, |run| u64::from(run.pixels));
-        for (grey, pixels) in [
-            (0, first - end),
-            (run.map_or(0, |run| level(run.grey)), pixels),
-        ] {
-            if pixels == 0 {
-                continue;
-            }
-            if grey != last {
-                emit(last, count);
-                count = 0;
-            }
-            last = grey;
-            count += pixels;
+    let mut add = |level: u8, pixels: u64| {
+        if pixels == 0 {
+            return;
         }
-        end = first + pixels;
-    }
+        if level != last {
+            emit(last, count);
+            (last, count) = (level, 0);
+        }
+        count += pixels;
+    };
+    // From within, nested iterators are nested loops.
+    runs.for_each(|run| {
+        let first = u64::from(run.first);
+        add(0, first - end);
+        add(level(run.grey), u64::from(run.pixels));
+        end = first + u64::from(run.pixels);
+    });
+    add(0, area - end);
     emit(last, count);
 }

@@ -155,6 +155,35 @@ fn next_marked(marks: &[u64], from: u32, end: u32) -> u32 {
     end
 }
 
+/// The rays of a row along which bodies overlap.
+#[derive(Debug, Clone, Copy)]
+pub(crate) struct RowOverlaps<'a> {
+    /// None if there are no such rays.
+    marks: &'a [u64],
+}
+
+impl RowOverlaps<'_> {
+    /// The columns without those of these rays, in ranges.
+    #[inline]
+    pub fn others(self, columns: Range<u32>) -> impl Iterator<Item = Range<u32>> {
+        let Range { mut start, end } = columns;
+        std::iter::from_fn(move || {
+            while start < end {
+                let marked = match self.marks {
+                    [] => end,
+                    marks => next_marked(marks, start, end),
+                };
+                let range = start..marked;
+                start = marked + 1;
+                if !range.is_empty() {
+                    return Some(range);
+                }
+            }
+            None
+        })
+    }
+}
+
 impl Overlaps {
     /// Those of consecutive rows each, from the top row down.
     pub(super) fn new(parts: Vec<Part>) -> Self {
@@ -167,10 +196,11 @@ impl Overlaps {
         self.parts.get(after.checked_sub(1)?)
     }
 
-    /// The marks of a row; none if it has no such rays.
+    /// The rays of a row.
     #[inline]
-    fn marks_of(&self, row: u32) -> &[u64] {
-        self.part_of(row).map_or(&[], |part| part.marks_of(row))
+    pub(crate) fn row(&self, row: u32) -> RowOverlaps<'_> {
+        let marks = self.part_of(row).map_or(&[][..], |part| part.marks_of(row));
+        RowOverlaps { marks }
     }
 
     /// Calls `emit` with row, column and hits of each ray of some rows of the grid.
@@ -211,24 +241,6 @@ impl Overlaps {
         parts.into_iter().all(|all| all)
     }
 
-    /// The columns of a row without those of these rays, in ranges.
-    #[inline]
-    pub(crate) fn others(&self, row: u32, columns: Range<u32>) -> impl Iterator<Item = Range<u32>> {
-        let Range { mut start, end } = columns;
-        let marks = self.marks_of(row);
-        std::iter::from_fn(move || {
-            while start < end {
-                let marked = next_marked(marks, start, end);
-                let range = start..marked;
-                start = marked + 1;
-                if !range.is_empty() {
-                    return Some(range);
-                }
-            }
-            None
-        })
-    }
-
     /// Calls `visit` with the height at which each other ray meets a facet, until it returns true; returns whether it did.
     pub(crate) fn any_other(
         &self,
@@ -247,7 +259,8 @@ impl Overlaps {
             }
             let heights = projected.heights(row);
             is_done = self
-                .others(row, columns)
+                .row(row)
+                .others(columns)
                 .flatten()
                 .any(|column| visit(heights.at(column)));
         });

@@ -63,6 +63,7 @@ impl Masks {
                 changes,
             };
             let rows = rows.start as u32..rows.end as u32;
+            let of_rows: Vec<_> = rows.clone().map(|row| overlaps.row(row)).collect();
             for &facet in facets {
                 let Some(projected) = projection.facet(facet as usize) else {
                     continue;
@@ -72,7 +73,7 @@ impl Masks {
                     .outline
                     .for_each_span(rows.clone(), |row, columns| {
                         let heights = projected.heights(row);
-                        for columns in overlaps.others(row, columns) {
+                        for columns in of_rows[(row - rows.start) as usize].others(columns) {
                             sublayer_of.each_range(heights, columns, |sublayer, columns| {
                                 band.add(sublayer, row, columns, sign);
                             });

@@ -290,15 +290,16 @@ impl State {
 
     fn collect(&self, place: &Place, greys: &[u8], runs: &mut Vec<Run>) {
         let mut row = 0;
+        let mut row_end = place.row_pixels;
         // Runs of the band that go on in the next row are cut at its end.
-        let mut add = |range: Range<u32>, grey: u8| {
-            let Range { mut start, end } = range;
+        let mut add = |mut start: u32, end: u32, grey: u8| {
             while start < end {
-                while start >= (row + 1) * place.row_pixels {
+                while start >= row_end {
                     row += 1;
+                    row_end += place.row_pixels;
                 }
-                let stop = end.min((row + 1) * place.row_pixels);
-                let column = place.first_column + start - row * place.row_pixels;
+                let stop = end.min(row_end);
+                let column = place.first_column + start + place.row_pixels - row_end;
                 runs.push(Run {
                     first: (place.first_row + row) * place.width + column,
                     pixels: stop - start,
@@ -307,21 +308,25 @@ impl State {
                 start = stop;
             }
         };
-        let mut edges = self.edges.places();
+        let mut from = 0;
         if self.lit.is_empty() {
-            while let (Some(start), Some(end)) = (edges.next(), edges.next()) {
-                add(start..end, 255);
-            }
+            let mut is_lit = false;
+            self.edges.each(|edge| {
+                if is_lit {
+                    add(from, edge, 255);
+                }
+                is_lit = !is_lit;
+                from = edge;
+            });
             return;
         }
-        let mut from = 0;
-        for edge in edges {
+        self.edges.each(|edge| {
             let lit = self.lit[from as usize];
             if lit > 0 {
-                add(from..edge, greys[usize::from(lit)]);
+                add(from, edge, greys[usize::from(lit)]);
             }
             from = edge;
-        }
+        });
     }
 }
 
@@ -351,21 +356,20 @@ impl Edges {
         }
     }
 
-    /// The places in the set, argsort.
-    fn places(&self) -> impl Iterator<Item = u32> {
-        let filled = self.filled.iter().enumerate();
-        let words = filled.flat_map(|(index, &bits)| ones(bits, index));
-        words.flat_map(|word| ones(self.words[word as usize], word as usize))
+    /// Calls `take` with each place of the set, in ascending order.
+    fn each(&self, mut take: impl FnMut(u32)) {
+        for (index, &filled) in self.filled.iter().enumerate() {
+            each_one(filled, index, |word| {
+                each_one(self.words[word as usize], word as usize, &mut take);
+            });
+        }
     }
 }
 
-/// The places of the ones of the word at `index`.
-fn ones(mut bits: u64, index: usize) -> impl Iterator<Item = u32> {
-    std::iter::from_fn(move || {
-        (bits != 0).then(|| {
-            let one = bits.trailing_zeros();
-            bits &= bits - 1;
-            index as u32 * 64 + one
-        })
-    })
+/// Calls `take` with the places of the ones of the word at `index`.
+fn each_one(mut bits: u64, index: usize, mut take: impl FnMut(u32)) {
+    while bits != 0 {
+        take(index as u32 * 64 + bits.trailing_zeros());
+        bits &= bits - 1;
+    }
 }
