@@ -30,6 +30,24 @@ pub(crate) fn both<A: Send, B: Send>(
     (one(), other())
 }
 
+/// The results of two functions, of which the first runs on another thread where there are threads.
+pub(crate) fn beside<A: Send, B>(
+    aside: impl FnOnce() -> A + Send,
+    here: impl FnOnce() -> B,
+) -> (A, B) {
+    #[cfg(not(target_arch = "wasm32"))]
+    {
+        let mut result = None;
+        let here = rayon::in_place_scope(|scope| {
+            scope.spawn(|_| result = Some(aside()));
+            here()
+        });
+        (result.expect("a scope waits for its threads"), here)
+    }
+    #[cfg(target_arch = "wasm32")]
+    (aside(), here())
+}
+
 /// Number of items processed at a time.
 #[cfg(not(target_arch = "wasm32"))]
 pub(crate) fn threads() -> usize {

@@ -21,7 +21,7 @@ const RINGS: usize = 6;
 /// Halvings of the distance between a fan and the cap: to a 65,536th of the hole's width.
 const HALVINGS: usize = 16;
 
-/// Factor by which a product that has shrunk as far is enlarged.
+/// Factor by which a product that has shrunk or grown as far is scaled.
 const LARGE: f64 = 1e100;
 
 /// A hole whose cap is curved.
@@ -145,16 +145,17 @@ impl Bent {
                 + b.dot(to_middle) * a_length
                 + to_middle.dot(a) * b_length;
             (a, a_length) = (b, b_length);
-            // Signs alone count, so the product may shrink, but not vanish.
-            let size = rest.abs() + volume.abs();
-            if size <= 0.0 {
+            if rest == 0.0 && volume == 0.0 {
                 continue;
             }
             let before = im;
-            let (rest, volume) = (rest / size, volume / size);
             (re, im) = (re * rest - im * volume, re * volume + im * rest);
-            if re.abs() + im.abs() < 1.0 / LARGE {
+            // Signs alone count, so the product may shrink or grow, but not vanish.
+            let size = re.abs() + im.abs();
+            if size < 1.0 / LARGE {
                 (re, im) = (re * LARGE, im * LARGE);
+            } else if size > LARGE {
+                (re, im) = (re / LARGE, im / LARGE);
             }
             if re < 0.0 && (before < 0.0) != (im < 0.0) {
                 turns += if im < 0.0 { 1 } else { -1 };

@@ -1,6 +1,6 @@
 //! The shape of a model along z from both sources, facets and rays, with optional weights of facets.
 
-use super::creases::creases;
+use super::creases::{Creases, creases};
 use super::facet_bins::{FacetBins, Flat};
 use super::hidden::Hidden;
 use super::normal_cones::{self, Cone, cones};
@@ -50,25 +50,15 @@ impl Shapes {
         survey: &Survey,
         progress: &mut Progress<'_>,
     ) -> Result<Self, Cancelled> {
-        let mut first = |fraction| progress(0.5 * fraction);
-        let Visibility {
-            hidden,
-            partly_inside,
-            overlaps,
-        } = visibility(rays, survey, &mut first)?;
         let (bins, mesh) = (facet_bins.bins, rays.mesh);
-        let hidden = Hidden::whole(hidden);
-        let is_seen = |facet: u32| hidden.is_seen(facet as usize);
-        let pairs = crossing::pairs(mesh, &partly_inside, is_seen);
-        let creases = creases(mesh, bins, &pairs);
-        let mut second = |fraction| progress(0.5 + 0.5 * fraction);
-        let spans = creases.spans;
-        let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, rays, &mut second)?;
-        let value = |facet| facet_bins.n_z_squared[facet];
-        let (exact, mut cones) = parallel::both(
-            || steepest::exact_maxima(facet_bins, &hidden, value),
-            || cones(mesh, bins),
-        );
+        let find = || {
+            let found = Self::surface(facet_bins, rays, survey, progress)?;
+            let value = |facet| facet_bins.n_z_squared[facet];
+            let exact = steepest::exact_maxima(facet_bins, &found.0, value);
+            Ok::<_, Cancelled>((found, exact))
+        };
+        let (mut cones, found) = parallel::beside(|| cones(mesh, bins), find);
+        let ((hidden, overlaps, of_creases), exact) = found?;
         if !hidden.is_by_facets() {
             let seen = |cone: &Cone| {
                 let cone = *cone;
@@ -77,7 +67,7 @@ impl Shapes {
             };
             cones = cones.iter().flat_map(seen).collect();
         }
-        cones.extend(creases.cones);
+        cones.extend(of_creases);
         Ok(Self {
             exact: Shape {
                 bins,
@@ -92,6 +82,30 @@ impl Shapes {
             overlaps,
             weighing: None,
         })
+    }
+
+    /// The hidden facets and parts of facets; true if bodies overlap in a way that only rays can resolve; and the cones where bodies
+    /// cross.
+    fn surface(
+        facet_bins: &FacetBins,
+        rays: MeshRays<'_>,
+        survey: &Survey,
+        progress: &mut Progress<'_>,
+    ) -> Result<(Hidden, bool, Vec<Cone>), Cancelled> {
+        let (bins, mesh) = (facet_bins.bins, rays.mesh);
+        let mut first = |fraction| progress(0.5 * fraction);
+        let Visibility {
+            hidden,
+            partly_inside,
+            overlaps,
+        } = visibility(rays, survey, &mut first)?;
+        let hidden = Hidden::whole(hidden);
+        let is_seen = |facet: u32| hidden.is_seen(facet as usize);
+        let pairs = crossing::pairs(mesh, &partly_inside, is_seen);
+        let Creases { cones, spans } = creases(mesh, bins, &pairs);
+        let mut second = |fraction| progress(0.5 + 0.5 * fraction);
+        let hidden = hidden.with_parts(facet_bins, &partly_inside, spans, rays, &mut second)?;
+        Ok((hidden, overlaps, cones))
     }
 
     /// The same with the shape as rays see it, without areas of sections and without weights.
