@@ -20,7 +20,7 @@ const root = fileURLToPath(new URL("..", import.meta.url));
 const out = join(root, "dist-package");
 
 /** Maximum size of everything except three.js, gzipped. */
-const LIMIT_BYTES = 1_175_000;
+const LIMIT_BYTES = 1_180_000;
 
 const ENTRIES = {
   index: "src/api/index.ts",
