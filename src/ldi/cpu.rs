@@ -145,8 +145,8 @@ impl ScannedRays {
     }
 }
 
-/// The rays of a row as they are found. Most have two hits: they enter a body and leave it, so that the facing of a facet tells which
-/// of them it is, and nothing needs sorting.
+/// The rays of a row as they are found. Most have two hits. As every ray closes, one of the two faces down and the other up, which tells
+/// them apart, so nothing needs sorting.
 #[derive(Debug)]
 pub struct RayRow {
     /// The row of the grid.

@@ -126,7 +126,7 @@ impl Sums {
         found.each(|column, part| match part {
             RowPart::Ray(hits) => self.add_ray([row, column], hits),
             RowPart::Pairs(pairs) => {
-                // Without a way out, the loop is vectorised.
+                // No early exit, so that the loop is vectorised.
                 let rise = |[enters, leaves]: &[Hit; 2]| enters.z_mm < leaves.z_mm;
                 let are_plain = pairs.iter().fold(true, |all, pair| all & rise(pair));
                 if are_plain && self.classes.is_model_alone() {
