@@ -19,17 +19,6 @@ pub(crate) fn map<T: Send, R: Send>(items: Vec<T>, work: impl Fn(T) -> R + Sync 
     items.into_iter().map(work).collect()
 }
 
-/// The results of two functions, which run side by side where there are threads.
-pub(crate) fn both<A: Send, B: Send>(
-    one: impl FnOnce() -> A + Send,
-    other: impl FnOnce() -> B + Send,
-) -> (A, B) {
-    #[cfg(not(target_arch = "wasm32"))]
-    return rayon::join(one, other);
-    #[cfg(target_arch = "wasm32")]
-    (one(), other())
-}
-
 /// The results of two functions, of which the first runs on another thread where there are threads.
 pub(crate) fn beside<A: Send, B>(
     aside: impl FnOnce() -> A + Send,

@@ -33,7 +33,7 @@ pub(super) fn for_each_run(
         }
         count += pixels;
     };
-    // From within, nested iterators are nested loops.
+    // Internal iteration turns nested iterators into nested loops.
     runs.for_each(|run| {
         let first = u64::from(run.first);
         add(0, first - end);

@@ -55,8 +55,8 @@ impl LoadedModel {
     /// [`Error::Read`], [`Error::Mesh`].
     pub fn read_with(bytes: &[u8], options: &ReadOptions) -> Result<Self, Error> {
         let clock = Instant::now();
-        let (contents, file) =
-            parallel::both(|| read::read_with(bytes, options), || ModelFile::of(bytes));
+        let (file, contents) =
+            parallel::beside(|| ModelFile::of(bytes), || read::read_with(bytes, options));
         let contents = contents?;
         let facts = FileFacts::new(&file, options, &contents);
         let mut model = Self::of_triangles(&contents.triangles, facts)?;

@@ -138,8 +138,8 @@ impl RayRows<'_> {
         self.fold_bands(first, step, progress)
     }
 
-    /// The same with a `step` for either source, which for rays that are found takes a row that is not sorted.
-    fn fold_rows<T: Send>(
+    /// The same with a step for each source: one for rays of an LDI, one for rows that are found and not sorted.
+    pub(super) fn fold_rows<T: Send>(
         &self,
         first: impl Fn() -> T,
         kept: impl Fn(&mut T, Rays<'_>) + Sync + Send,
@@ -224,17 +224,6 @@ impl RayImage<'_> {
         progress: &mut Progress<'_>,
     ) -> Result<Vec<T>, Cancelled> {
         self.read(|image| image.fold(first, step, progress))
-    }
-
-    /// [`Self::fold`] with a `step` for rays of an LDI, and one for rows that are found and not sorted.
-    pub(super) fn fold_rows<T: Send>(
-        self,
-        first: impl Fn() -> T,
-        kept: impl Fn(&mut T, Rays<'_>) + Sync + Send,
-        found: impl Fn(&mut T, &mut RayRow) + Sync + Send,
-        progress: &mut Progress<'_>,
-    ) -> Result<Vec<T>, Cancelled> {
-        self.read(|image| image.fold_rows(first, kept, found, progress))
     }
 
     /// Reads the rays in any order: `read` is called once.

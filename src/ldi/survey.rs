@@ -67,7 +67,7 @@ impl Survey {
         progress: &mut Progress<'_>,
     ) -> Result<(Self, Overlaps), LdiError> {
         let none = || Sums::new(image, keeps);
-        let parts = image.fold_rows(none, Sums::add, Sums::add_row, progress)?;
+        let parts = image.read(|rows| rows.fold_rows(none, Sums::add, Sums::add_row, progress))?;
         let mut overlaps = Vec::new();
         let mut all = none();
         for part in parts {
